@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: MIT */
+/** @file predictor.h
+ *  A predictor turns images into two-view and multi-view predictions. A network, a recording and our
+ *  own geometry answer through the same table; nothing behind it knows of the session.
+ *
+ *  Order of calls: observe() for every frame in time order; keyframe() when the frame just observed is
+ *  taken as a keyframe; then two_view(), multi_view(), next_revision() as the session asks.
+ *  Results are borrowed: valid until the next call of the same function. One thread at a time.
+ */
+#ifndef UNISIM_DRIVERS_PREDICTOR_H
+#define UNISIM_DRIVERS_PREDICTOR_H
+
+#include <stdint.h>
+
+#include "drivers/image.h"
+#include "drivers/source.h"
+#include "unisim/unisim.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define UNISIM_PREDICTION_OK 0
+#define UNISIM_PREDICTION_PENDING 1  /**< not known yet: ask again after the next keyframe */
+#define UNISIM_PREDICTION_REJECTED 2 /**< cannot be made; message() says why */
+#define UNISIM_PREDICTION_FAILED 3   /**< the predictor is of no more use; message() says what to do */
+
+/** What a frame says about the camera's motion. */
+typedef struct unisim_motion {
+  double flow;             /**< median displacement since the last keyframe over the image diagonal; < 0: not measured */
+  double tracked;          /**< share of the last keyframe's features still seen, 0..1; < 0: not measured */
+  int32_t keyframe_advice; /**< 1: this frame must be a keyframe, -1: must not, 0: the caller decides */
+} unisim_motion;
+
+/** Two-view prediction of keyframes i, j. Unit of length: the predictor's choice for each call. */
+typedef struct unisim_pair_prediction {
+  unisim_sim3 T_i_j; /**< scale 1 */
+  unisim_depth_map depth_i;
+  unisim_depth_map depth_j;
+  double focal_px;     /**< of the image, 0 if not known */
+  double center_sigma; /**< see unisim_two_view; 0 if not known */
+} unisim_pair_prediction;
+
+/** Multi-view prediction of a window. */
+typedef struct unisim_window_prediction {
+  int32_t count;                  /**< views that were solved; may be fewer than asked for */
+  const int32_t* keyframe_ids;    /**< count, ascending */
+  const unisim_sim3* T_window_kf; /**< count, camera to window, scale 1, any gauge */
+  const unisim_depth_map* depth;  /**< count */
+  double focal_px;                /**< 0 if not known */
+  double center_sigma;            /**< see unisim_submap; 0 if not known */
+  int64_t token;                  /**< names this window in later revisions */
+} unisim_window_prediction;
+
+/** A window the predictor has measured again, better. */
+typedef struct unisim_window_revision {
+  int64_t token;                  /**< of the unisim_window_prediction */
+  int32_t count;                  /**< same views as before */
+  const unisim_sim3* T_window_kf; /**< count */
+  const double* log_depth_ratio;  /**< count; see unisim_submap_update */
+  double center_sigma;
+} unisim_window_revision;
+
+/** Pose of the frame observed last, relative to the newest keyframe. */
+typedef struct unisim_frame_pose {
+  unisim_sim3 T_kf_frame; /**< in the unit of depth_j of the newest pair; scale 1 */
+  int32_t keyframe_id;
+} unisim_frame_pose;
+
+/** Things worth knowing at the end of a run. */
+typedef struct unisim_predictor_info {
+  double focal_px;       /**< last estimate, 0 if none */
+  double focal_sigma_px; /**< its standard deviation, 0 if not known */
+  double radial_k1;      /**< undistorted = distorted (1 + k1 r^2), r in focal lengths; 0 if none */
+  int64_t state_bytes;   /**< memory the predictor holds, 0 if not known */
+  int32_t initialised;   /**< 0: never saw enough motion to start */
+  int32_t restarts;      /**< times track was lost and a new segment begun */
+  int32_t rotation_only; /**< keyframes recognised as turned on the spot */
+  int32_t static_frames; /**< frames recognised as not moving */
+} unisim_predictor_info;
+
+/** A predictor. Free with destroy(predictor). Functions marked optional may be NULL. */
+typedef struct unisim_predictor unisim_predictor;
+struct unisim_predictor {
+  const char* name;     /**< "geometric", "recorded", "onnx": static text */
+  int32_t needs_images; /**< 0: observe() and keyframe() take images with data NULL */
+
+  /** See one frame. @return UNISIM_PREDICTION_OK, _REJECTED (frame of no use), _FAILED */
+  int (*observe)(unisim_predictor* predictor, const unisim_frame* frame, unisim_motion* motion);
+
+  /** The frame observed last is keyframe `id` (0, 1, 2 ...). @return UNISIM_PREDICTION_OK, _FAILED */
+  int (*keyframe)(unisim_predictor* predictor, const unisim_frame* frame, int32_t id);
+
+  /** Pair (i, j = i + 1). @return UNISIM_PREDICTION_* */
+  int (*two_view)(unisim_predictor* predictor, int32_t i, int32_t j, unisim_pair_prediction* out);
+
+  /** Window of `count` ascending keyframe ids. @return UNISIM_PREDICTION_* */
+  int (*multi_view)(unisim_predictor* predictor, const int32_t* ids, int32_t count,
+                    unisim_window_prediction* out);
+
+  /** Next window measured anew since the last call; optional. Ask until it says PENDING. */
+  int (*next_revision)(unisim_predictor* predictor, unisim_window_revision* out);
+
+  /** Pose of the frame observed last; optional. @return UNISIM_PREDICTION_* */
+  int (*frame_pose)(unisim_predictor* predictor, unisim_frame_pose* out);
+
+  /** End of the recording: finish what runs in the background, so that last revisions can be asked for; optional. */
+  int (*finish)(unisim_predictor* predictor);
+
+  void (*info)(unisim_predictor* predictor, unisim_predictor_info* out);
+
+  /** One line about the last REJECTED or FAILED: what, where, what to do. */
+  const char* (*message)(unisim_predictor* predictor);
+
+  void (*destroy)(unisim_predictor* predictor);
+};
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
