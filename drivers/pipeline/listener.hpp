@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// What the pipeline tells while it runs: keyframes, windows, progress, messages.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "drivers/predictor.h"
+#include "drivers/source.h"
+
+namespace unisim::pipeline {
+
+/// Where a run stands.
+struct Progress {
+  int64_t frames = 0;          ///< taken from the source and tracked
+  int64_t frames_total = -1;   ///< -1: not known
+  int64_t frames_bad = 0;      ///< unreadable
+  int64_t frames_dropped = 0;  ///< late in a realtime run
+  int32_t keyframes = 0;
+  int32_t submaps = 0;
+  int32_t state = 0;  ///< UNISIM_STATE_*
+};
+
+/// Receives events on the thread that called Pipeline::run(). Pointers are valid during the call.
+/// A listener may read the session through the C API but must not change it.
+class Listener {
+ public:
+  virtual ~Listener() = default;
+
+  /// `frame` became keyframe `id`. frame.image.data is NULL when images are not decoded.
+  virtual void on_keyframe(int32_t /*id*/, const unisim_frame& /*frame*/) {}
+
+  /// A window entered the graph as `submap_id` (never -1: refused windows are not told).
+  virtual void on_window(int32_t /*submap_id*/, const unisim_window_prediction& /*window*/) {}
+
+  /// The measurement of `submap_id` was replaced.
+  virtual void on_revision(int32_t /*submap_id*/, const unisim_window_revision& /*revision*/) {}
+
+  /// After each frame.
+  virtual void on_progress(const Progress& /*progress*/) {}
+
+  /// One line worth telling: unreadable frames, rejected predictions.
+  virtual void on_message(const std::string& /*line*/) {}
+};
+
+}  // namespace unisim::pipeline

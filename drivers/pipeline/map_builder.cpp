@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+// Carries predictions from the predictor to the session.
+#include "drivers/pipeline/map_builder.hpp"
+
+#include <algorithm>
+
+namespace unisim::pipeline {
+namespace {
+
+std::string request_name(const unisim_request& request) {
+  const std::string first = std::to_string(request.keyframe_ids[0]);
+  const std::string last = std::to_string(request.keyframe_ids[request.count - 1]);
+  return request.kind == UNISIM_REQUEST_PAIR ? "pair " + first + "," + last
+                                             : "window of keyframes " + first + ".." + last;
+}
+
+}  // namespace
+
+MapBuilder::MapBuilder(const Parts& parts, size_t max_submaps) : parts_(parts) {
+  tokens_.reserve(max_submaps);
+}
+
+Step MapBuilder::session_failed(const char* call, unisim_status status) {
+  if (status == UNISIM_ERR_CAPACITY) return Step::kCapacity;
+  parts_.messages->say(std::string(call) + ": " + unisim_status_string(status));
+  return Step::kSessionFailed;
+}
+
+Step MapBuilder::add_keyframe(const unisim_frame& frame, int32_t* id) {
+  unisim_keyframe keyframe{};
+  keyframe.struct_size = sizeof keyframe;
+  keyframe.timestamp_ns = frame.timestamp_ns;
+  unisim_status status = UNISIM_OK;
+  {
+    const ScopedLatency timer(parts_.times->graph);
+    const InsideLibrary inside(*parts_.heap_watch);
+    status = unisim_add_keyframe(parts_.session, &keyframe, id);
+  }
+  if (status != UNISIM_OK) return session_failed("unisim_add_keyframe", status);
+  const ScopedLatency timer(parts_.times->keyframe);
+  const int answer = parts_.predictor->keyframe(parts_.predictor, &frame, *id);
+  return answer == UNISIM_PREDICTION_FAILED ? Step::kPredictorFailed : Step::kOk;
+}
+
+bool MapBuilder::next_request(uint32_t kind, unisim_request* request) {
+  *request = {};
+  request->struct_size = sizeof *request;
+  const InsideLibrary inside(*parts_.heap_watch);
+  return unisim_next_request(parts_.session, kind, request) == UNISIM_OK;
+}
+
+Step MapBuilder::reject(const unisim_request& request, MessageKind kind, const std::string& why) {
+  parts_.messages->say(kind, request_name(request) + ": " + why);
+  unisim_status status = UNISIM_OK;
+  {
+    const InsideLibrary inside(*parts_.heap_watch);
+    status = unisim_reject_request(parts_.session, &request);
+  }
+  if (status != UNISIM_OK) return session_failed("unisim_reject_request", status);
+  if (request.kind == UNISIM_REQUEST_PAIR) last_settled_ = request.keyframe_ids[1];
+  return Step::kOk;
+}
+
+Step MapBuilder::serve_pairs() {
+  unisim_request request;
+  bool pending = false;
+  Step step = Step::kOk;
+  while (step == Step::kOk && !pending && next_request(UNISIM_REQUEST_PAIR, &request)) {
+    step = serve_pair(request, &pending);
+  }
+  return step;
+}
+
+Step MapBuilder::serve_pair(const unisim_request& request, bool* pending) {
+  unisim_pair_prediction prediction{};
+  int answer = UNISIM_PREDICTION_OK;
+  {
+    const ScopedLatency timer(parts_.times->two_view);
+    answer = parts_.predictor->two_view(parts_.predictor, request.keyframe_ids[0],
+                                        request.keyframe_ids[1], &prediction);
+  }
+  *pending = answer == UNISIM_PREDICTION_PENDING;
+  if (*pending) return Step::kOk;
+  if (answer == UNISIM_PREDICTION_FAILED) return Step::kPredictorFailed;
+  if (answer != UNISIM_PREDICTION_OK) {
+    return reject(request, MessageKind::kPairRejected, predictor_message());
+  }
+  unisim_two_view two_view{};
+  two_view.struct_size = sizeof two_view;
+  two_view.i = request.keyframe_ids[0];
+  two_view.j = request.keyframe_ids[1];
+  two_view.T_i_j = prediction.T_i_j;
+  two_view.depth_i = prediction.depth_i;
+  two_view.depth_j = prediction.depth_j;
+  two_view.center_sigma = prediction.center_sigma;
+  unisim_status status = UNISIM_OK;
+  {
+    const ScopedLatency timer(parts_.times->depth_ratio);
+    const InsideLibrary inside(*parts_.heap_watch);
+    status = unisim_add_two_view(parts_.session, &two_view);
+  }
+  if (status == UNISIM_ERR_INVALID_ARGUMENT) {
+    return reject(request, MessageKind::kInvalid, "prediction is not finite or has a wrong size");
+  }
+  if (status != UNISIM_OK) return session_failed("unisim_add_two_view", status);
+  last_settled_ = two_view.j;
+  return Step::kOk;
+}
+
+Step MapBuilder::serve_windows() {
+  unisim_request request;
+  bool pending = false;
+  bool changed = false;
+  Step step = Step::kOk;
+  while (step == Step::kOk && !pending && next_request(UNISIM_REQUEST_WINDOW, &request)) {
+    step = serve_window(request, &pending);
+    changed = changed || !pending;
+  }
+  if (step == Step::kOk && changed) step = optimize(1);
+  return step;
+}
+
+Step MapBuilder::serve_window(const unisim_request& request, bool* pending) {
+  unisim_window_prediction window{};
+  int answer = UNISIM_PREDICTION_OK;
+  {
+    const ScopedLatency timer(parts_.times->multi_view);
+    answer = parts_.predictor->multi_view(parts_.predictor, request.keyframe_ids, request.count,
+                                          &window);
+  }
+  *pending = answer == UNISIM_PREDICTION_PENDING;
+  if (*pending) return Step::kOk;
+  if (answer == UNISIM_PREDICTION_FAILED) return Step::kPredictorFailed;
+  if (answer != UNISIM_PREDICTION_OK) {
+    return reject(request, MessageKind::kWindowRejected, predictor_message());
+  }
+  return take_window(request, window, pending);
+}
+
+Step MapBuilder::take_window(const unisim_request& request, const unisim_window_prediction& window,
+                             bool* pending) {
+  unisim_submap submap{};
+  submap.struct_size = sizeof submap;
+  submap.count = window.count;
+  submap.keyframe_ids = window.keyframe_ids;
+  submap.T_submap_kf = window.T_window_kf;
+  submap.depth = window.depth;
+  submap.center_sigma = window.center_sigma;
+  int32_t submap_id = -1;
+  unisim_status status = UNISIM_OK;
+  {
+    const ScopedLatency timer(parts_.times->depth_ratio);
+    const InsideLibrary inside(*parts_.heap_watch);
+    status = unisim_add_submap(parts_.session, &submap, &submap_id);
+  }
+  *pending = status == UNISIM_ERR_NOT_READY;
+  if (*pending) return Step::kOk;
+  if (status == UNISIM_ERR_INVALID_ARGUMENT) {
+    return reject(request, MessageKind::kInvalid, "prediction is not finite or has a wrong size");
+  }
+  if (status != UNISIM_OK) return session_failed("unisim_add_submap", status);
+  if (submap_id < 0) return Step::kOk;
+  if (tokens_.size() < tokens_.capacity()) tokens_.push_back({window.token, submap_id});
+  for (Listener* listener : *parts_.listeners) listener->on_window(submap_id, window);
+  return Step::kOk;
+}
+
+Step MapBuilder::serve_revisions() {
+  if (parts_.predictor->next_revision == nullptr) return Step::kOk;
+  bool changed = false;
+  for (;;) {
+    unisim_window_revision revision{};
+    const int answer = parts_.predictor->next_revision(parts_.predictor, &revision);
+    if (answer == UNISIM_PREDICTION_FAILED) return Step::kPredictorFailed;
+    if (answer == UNISIM_PREDICTION_PENDING) break;
+    if (answer != UNISIM_PREDICTION_OK) continue;
+    take_revision(revision);
+    changed = true;
+  }
+  return changed ? optimize(1) : Step::kOk;
+}
+
+void MapBuilder::take_revision(const unisim_window_revision& revision) {
+  const auto same = [&](const TokenOfSubmap& entry) { return entry.token == revision.token; };
+  const auto found = std::find_if(tokens_.rbegin(), tokens_.rend(), same);
+  if (found == tokens_.rend()) return;
+  unisim_submap_update update{};
+  update.struct_size = sizeof update;
+  update.submap_id = found->submap_id;
+  update.count = revision.count;
+  update.T_submap_kf = revision.T_window_kf;
+  update.log_depth_ratio = revision.log_depth_ratio;
+  update.center_sigma = revision.center_sigma;
+  unisim_status status = UNISIM_OK;
+  {
+    const ScopedLatency timer(parts_.times->graph);
+    const InsideLibrary inside(*parts_.heap_watch);
+    status = unisim_update_submap(parts_.session, &update);
+  }
+  if (status != UNISIM_OK) {
+    parts_.messages->say(MessageKind::kInvalid, "revision of submap " +
+                                                    std::to_string(found->submap_id) + ": " +
+                                                    unisim_status_string(status));
+    return;
+  }
+  for (Listener* listener : *parts_.listeners) listener->on_revision(found->submap_id, revision);
+}
+
+Step MapBuilder::reject_open_pairs() {
+  unisim_request request;
+  Step step = Step::kOk;
+  while (step == Step::kOk && next_request(UNISIM_REQUEST_PAIR, &request)) {
+    step = reject(request, MessageKind::kPairRejected, "still unknown at the end of the recording");
+  }
+  return step;
+}
+
+Step MapBuilder::close() {
+  Step step = reject_open_pairs();
+  if (step == Step::kOk) step = serve_windows();
+  if (step == Step::kOk) step = serve_revisions();
+  if (step != Step::kOk) return step;
+  unisim_status status = UNISIM_OK;
+  {
+    const InsideLibrary inside(*parts_.heap_watch);
+    status = unisim_close_window(parts_.session);
+  }
+  if (status == UNISIM_OK) step = serve_windows();
+  constexpr int kFinalCalls = 5;
+  return step == Step::kOk ? optimize(kFinalCalls) : step;
+}
+
+Step MapBuilder::optimize(int max_calls) {
+  unisim_report report{};
+  report.struct_size = sizeof report;
+  report.stop = UNISIM_STOP_BUDGET;
+  for (int call = 0; call < max_calls && report.stop == UNISIM_STOP_BUDGET; ++call) {
+    unisim_status status = UNISIM_OK;
+    {
+      const ScopedLatency timer(parts_.times->optimize);
+      const InsideLibrary inside(*parts_.heap_watch);
+      status = unisim_optimize(parts_.session, nullptr, &report);
+    }
+    if (status == UNISIM_ERR_NOT_READY) return Step::kOk;
+    if (status == UNISIM_ERR_NUMERICAL) {
+      parts_.messages->say(MessageKind::kSolver, "optimisation stopped at node " +
+                                                     std::to_string(report.bad_node) +
+                                                     ": poses stay as they were");
+      return Step::kOk;
+    }
+    if (status != UNISIM_OK) return session_failed("unisim_optimize", status);
+  }
+  return Step::kOk;
+}
+
+}  // namespace unisim::pipeline

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+// The one place with threads: source -> predictor -> session -> poses.
+#include "drivers/pipeline/pipeline.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "drivers/pipeline/frame_reader.hpp"
+#include "drivers/pipeline/map_builder.hpp"
+#include "drivers/pipeline/messages.hpp"
+#include "drivers/pipeline/pacer.hpp"
+#include "drivers/pipeline/similarity.hpp"
+
+namespace unisim::pipeline {
+
+class Pipeline::Impl {
+ public:
+  Impl(const Options& options, unisim_source* source, unisim_predictor* predictor,
+       const unisim_config& config, std::vector<Listener*> listeners, const std::atomic<bool>* stop,
+       const HeapWatch& heap_watch)
+      : options_(options),
+        source_(source),
+        predictor_(predictor),
+        config_(config),
+        listeners_(std::move(listeners)),
+        stop_(stop),
+        heap_watch_(heap_watch),
+        messages_(listeners_),
+        selector_(options.keyframes) {}
+
+  ~Impl() { unisim_session_destroy(session_); }
+
+  std::string prepare();
+  const Result& run();
+  unisim_session* session() const { return session_; }
+
+ private:
+  void read_all();
+  bool take(const FrameReader::Item& item);
+  bool track(const unisim_frame& frame);
+  bool take_keyframe(const unisim_frame& frame);
+  void pose_between(const unisim_frame& frame);
+  void record_live();
+  void finish();
+  bool went_well(Step step);
+  void end(Outcome outcome, const std::string& message);
+  void tell_progress();
+
+  Options options_;
+  unisim_source* source_;
+  unisim_predictor* predictor_;
+  unisim_config config_;
+  std::vector<Listener*> listeners_;
+  const std::atomic<bool>* stop_;
+  HeapWatch heap_watch_;
+  std::unique_ptr<char[]> arena_;
+  unisim_session* session_ = nullptr;
+  std::optional<MapBuilder> builder_;
+  Messages messages_;
+  KeyframeSelector selector_;
+  Pacer pacer_;
+  Result result_;
+  int32_t next_live_ = 0;  // first keyframe whose live pose is not given out yet
+};
+
+std::string Pipeline::Impl::prepare() {
+  size_t size = 0;
+  unisim_status status = unisim_arena_size(&config_, &size);
+  if (status != UNISIM_OK) {
+    return std::string("session configuration: ") + unisim_status_string(status);
+  }
+  arena_.reset(new (std::nothrow) char[size]);
+  if (arena_ == nullptr) {
+    return "session: no memory for its " + std::to_string(size >> 20) +
+           " MiB; lower session.max_keyframes";
+  }
+  status = unisim_session_create(&session_, &config_, arena_.get(), size);
+  if (status != UNISIM_OK) return std::string("session: ") + unisim_status_string(status);
+  // Windows start w - overlap keyframes apart; one shorter window may follow.
+  const int32_t step = config_.window_size - config_.window_overlap;
+  const auto windows = static_cast<size_t>(config_.max_keyframes / step + 2);
+  builder_.emplace(MapBuilder::Parts{session_, predictor_, &result_.times, &messages_, &heap_watch_,
+                                     &listeners_},
+                   windows);
+  return {};
+}
+
+const Result& Pipeline::Impl::run() {
+  if (session_ == nullptr) {
+    const std::string problem = prepare();
+    if (!problem.empty()) {
+      end(Outcome::kSessionFailed, problem);
+      return result_;
+    }
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const int64_t heap_calls = heap_watch_.count != nullptr ? heap_watch_.count() : 0;
+  result_.progress.frames_total = source_->frame_count(source_);
+  read_all();
+  finish();
+  messages_.tell_counts();
+  predictor_->info(predictor_, &result_.predictor);
+  if (heap_watch_.count != nullptr) result_.heap_calls = heap_watch_.count() - heap_calls;
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  result_.wall_s = wall.count();
+  return result_;
+}
+
+void Pipeline::Impl::read_all() {
+  const bool decode = predictor_->needs_images != 0 || options_.decode_images;
+  FrameReader reader(source_, std::max(options_.queue_frames, 1), decode);
+  for (;;) {
+    if (stop_ != nullptr && stop_->load()) {
+      end(Outcome::kStopped, "interrupted");
+      break;
+    }
+    if (!take(reader.next())) break;
+  }
+  reader.stop();
+  result_.times.decode = reader.decode_times();
+}
+
+bool Pipeline::Impl::take(const FrameReader::Item& item) {
+  if (item.status == UNISIM_FRAME_END) return false;
+  if (item.status == UNISIM_FRAME_FAILED) {
+    end(Outcome::kSourceFailed, item.message);
+    return false;
+  }
+  if (item.status == UNISIM_FRAME_BAD) {
+    ++result_.progress.frames_bad;
+    messages_.say(MessageKind::kBadFrame, item.message);
+    return true;
+  }
+  if (options_.realtime && !pacer_.keep(item.frame.timestamp_ns)) {
+    ++result_.progress.frames_dropped;
+    return true;
+  }
+  ++result_.progress.frames;
+  const bool goes_on = track(item.frame);
+  tell_progress();
+  return goes_on;
+}
+
+bool Pipeline::Impl::track(const unisim_frame& frame) {
+  const auto start = std::chrono::steady_clock::now();
+  unisim_motion motion = {-1.0, -1.0, 0};
+  int answer = UNISIM_PREDICTION_OK;
+  {
+    const ScopedLatency timer(result_.times.observe);
+    answer = predictor_->observe(predictor_, &frame, &motion);
+  }
+  if (answer == UNISIM_PREDICTION_FAILED) return went_well(Step::kPredictorFailed);
+  if (answer != UNISIM_PREDICTION_OK) {
+    messages_.say(MessageKind::kUselessFrame,
+                  "frame " + std::to_string(frame.index) + ": " + predictor_->message(predictor_));
+    return true;
+  }
+  if (!selector_.choose(frame.index, motion)) {
+    if (options_.every_frame) pose_between(frame);
+    return true;
+  }
+  if (!take_keyframe(frame)) return false;
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+  result_.times.track_total.add_ms(spent.count());
+  return went_well(builder_->serve_windows()) && went_well(builder_->serve_revisions());
+}
+
+bool Pipeline::Impl::take_keyframe(const unisim_frame& frame) {
+  int32_t id = -1;
+  if (!went_well(builder_->add_keyframe(frame, &id))) return false;
+  result_.keyframe_frames.push_back(frame.index);
+  ++result_.progress.keyframes;
+  for (Listener* listener : listeners_) listener->on_keyframe(id, frame);
+  const bool goes_on = went_well(builder_->serve_pairs());
+  record_live();
+  return goes_on;
+}
+
+void Pipeline::Impl::record_live() {
+  if (builder_->last_settled() == 0) return;
+  for (; next_live_ <= builder_->last_settled(); ++next_live_) {
+    unisim_pose pose{};
+    pose.struct_size = sizeof pose;
+    // A held pose (confidence 0) is the old one repeated, not a pose of this keyframe.
+    if (unisim_get_pose(session_, next_live_, &pose) != UNISIM_OK || pose.confidence == 0) continue;
+    result_.live.push_back({pose.timestamp_ns, pose.T_world_kf, next_live_});
+  }
+}
+
+void Pipeline::Impl::pose_between(const unisim_frame& frame) {
+  if (predictor_->frame_pose == nullptr) return;
+  unisim_frame_pose between{};
+  if (predictor_->frame_pose(predictor_, &between) != UNISIM_PREDICTION_OK) return;
+  unisim_pose pose{};
+  pose.struct_size = sizeof pose;
+  const int32_t keyframe = between.keyframe_id;
+  if (unisim_get_pose(session_, keyframe, &pose) != UNISIM_OK || pose.confidence == 0) return;
+  result_.between.push_back({frame.timestamp_ns, keyframe, between.T_kf_frame});
+  result_.live.push_back({frame.timestamp_ns, compose(pose.T_world_kf, between.T_kf_frame), -1});
+}
+
+void Pipeline::Impl::finish() {
+  const bool usable =
+      result_.outcome != Outcome::kPredictorFailed && result_.outcome != Outcome::kSessionFailed;
+  if (!usable || result_.progress.keyframes == 0) return;
+  if (predictor_->finish != nullptr && predictor_->finish(predictor_) == UNISIM_PREDICTION_FAILED) {
+    went_well(Step::kPredictorFailed);
+    return;
+  }
+  // A predictor that never started leaves no map to close.
+  if (went_well(builder_->serve_pairs()) && builder_->last_settled() > 0) {
+    went_well(builder_->close());
+  }
+  record_live();
+  tell_progress();
+}
+
+bool Pipeline::Impl::went_well(Step step) {
+  if (step == Step::kOk) return true;
+  if (step == Step::kPredictorFailed) {
+    end(Outcome::kPredictorFailed,
+        std::string(predictor_->name) + " predictor: " + predictor_->message(predictor_));
+  } else if (step == Step::kCapacity) {
+    end(Outcome::kCapacity, "the map is full at " + std::to_string(result_.progress.keyframes) +
+                                " keyframes; raise session.max_keyframes");
+  } else {
+    end(Outcome::kSessionFailed, "session: broken; please report this");
+  }
+  return false;
+}
+
+void Pipeline::Impl::end(Outcome outcome, const std::string& message) {
+  // The first reason to end stands; what follows while closing is its consequence.
+  if (result_.outcome != Outcome::kFinished) return;
+  result_.outcome = outcome;
+  result_.message = message;
+}
+
+void Pipeline::Impl::tell_progress() {
+  unisim_session_info info{};
+  info.struct_size = sizeof info;
+  if (unisim_get_info(session_, &info) == UNISIM_OK) {
+    result_.progress.state = info.state;
+    result_.progress.submaps = info.submaps;
+  }
+  for (Listener* listener : listeners_) listener->on_progress(result_.progress);
+}
+
+Pipeline::Pipeline(const Options& options, unisim_source* source, unisim_predictor* predictor,
+                   const unisim_config& config, std::vector<Listener*> listeners,
+                   const std::atomic<bool>* stop, const HeapWatch& heap_watch)
+    : impl_(std::make_unique<Impl>(options, source, predictor, config, std::move(listeners), stop,
+                                   heap_watch)) {}
+
+Pipeline::~Pipeline() = default;
+
+std::string Pipeline::prepare() { return impl_->prepare(); }
+
+const Result& Pipeline::run() { return impl_->run(); }
+
+unisim_session* Pipeline::session() const { return impl_->session(); }
+
+int32_t keyframe_capacity(int64_t frames, const KeyframeConfig& keyframes, int32_t when_unknown) {
+  if (frames < 0) return when_unknown;
+  const int64_t gap = std::max(keyframes.stride > 0 ? keyframes.stride : keyframes.min_gap, 1);
+  const int64_t needed = frames / gap + 2;
+  constexpr int64_t kLargest = std::numeric_limits<int32_t>::max();
+  return static_cast<int32_t>(std::min(needed, kLargest));
+}
+
+}  // namespace unisim::pipeline

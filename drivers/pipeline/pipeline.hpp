@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// The one place with threads: source -> predictor -> session -> poses, queues of fixed size.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivers/pipeline/heap_watch.hpp"
+#include "drivers/pipeline/keyframe_selector.hpp"
+#include "drivers/pipeline/latency_histogram.hpp"
+#include "drivers/pipeline/listener.hpp"
+#include "drivers/predictor.h"
+#include "drivers/source.h"
+#include "unisim/unisim.h"
+
+namespace unisim::pipeline {
+
+struct Options {
+  KeyframeConfig keyframes;
+  int32_t queue_frames = 8;    ///< frames decoded ahead
+  bool every_frame = false;    ///< also pose the frames between keyframes
+  bool realtime = false;       ///< keep to the recorded times, drop late frames
+  bool decode_images = false;  ///< decode even when the predictor needs no images (for listeners)
+};
+
+/// A pose as it was first given out, before any later correction.
+struct LivePose {
+  int64_t timestamp_ns;
+  unisim_sim3 T_world_cam;
+  int32_t keyframe_id;  ///< -1: a frame between keyframes
+};
+
+/// A frame between keyframes, held by the keyframe before it.
+struct BetweenPose {
+  int64_t timestamp_ns;
+  int32_t keyframe_id;
+  unisim_sim3 T_kf_frame;
+};
+
+enum class Outcome {
+  kFinished,
+  kStopped,   ///< the stop flag was raised
+  kCapacity,  ///< max_keyframes or max_submaps reached: what came before is complete
+  kSourceFailed,
+  kPredictorFailed,
+  kSessionFailed,  ///< the session could not be made or broke
+};
+
+/// What a run gives besides the map in the session.
+struct Result {
+  Outcome outcome = Outcome::kFinished;
+  std::string message;  ///< one line unless kFinished
+  Progress progress;
+  std::vector<LivePose> live;        ///< keyframes, with every_frame all frames, in order of time
+  std::vector<BetweenPose> between;  ///< with every_frame
+  std::vector<int64_t> keyframe_frames;  ///< frame index of each keyframe
+  StageTimes times;
+  unisim_predictor_info predictor{};
+  int64_t heap_calls = -1;  ///< inside the library after create, -1: not counted
+  double wall_s = 0.0;
+};
+
+/// One run. Everything it holds is bounded by its options, but for the poses in the result.
+///
+/// Threads: the source is read on a thread of its own, all else happens on the thread that calls
+/// run(). Without `realtime` the result depends on the inputs alone, not on timing.
+class Pipeline {
+ public:
+  /// @param source, predictor, listeners borrowed; they must outlive the pipeline
+  /// @param config max_keyframes is the length at which the run ends with kCapacity
+  /// @param stop   may be NULL; raised from anywhere, it ends the run after the current frame
+  Pipeline(const Options& options, unisim_source* source, unisim_predictor* predictor,
+           const unisim_config& config, std::vector<Listener*> listeners,
+           const std::atomic<bool>* stop = nullptr, const HeapWatch& heap_watch = {});
+  ~Pipeline();
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+
+  /// Makes the session, so that a configuration it refuses is known before any frame is read.
+  /// @return empty, or one line saying what is wrong
+  std::string prepare();
+
+  /// Runs the source to its end; once. Calls prepare() if that has not been done.
+  const Result& run();
+
+  /// The map, from prepare() until destruction; NULL when prepare() failed.
+  unisim_session* session() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Keyframes a sequence can have: a capacity that is never reached.
+/// @param frames       frames of the sequence, < 0: not known
+/// @param when_unknown returned then
+int32_t keyframe_capacity(int64_t frames, const KeyframeConfig& keyframes, int32_t when_unknown);
+
+}  // namespace unisim::pipeline
