@@ -36,7 +36,7 @@ struct TriangulationResult {
 /// Largest angle between the rays of any two views. O(count^2).
 double parallax_angle(const TriangulationView* views, int count);
 
-/// Triangulates. Does not allocate. Bad numbers give kBehind.
+/// Triangulates. Does not allocate. Bad numbers give kLowParallax or kBehind.
 TriangulationResult triangulate(const TriangulationView* views, int count,
                                 const TriangulationOptions& options);
 
