@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Bump allocator over the caller's memory.
+#include "core/base/arena.hpp"
+
+#include <cstring>
+
+namespace unisim {
+
+Arena::Arena(void* memory, size_t bytes) : memory_(static_cast<unsigned char*>(memory)) {
+  if (memory_ == nullptr) {
+    ok_ = false;
+    return;
+  }
+  const size_t misaligned = reinterpret_cast<uintptr_t>(memory) % kAlignment;
+  const size_t skip = misaligned == 0 ? 0 : kAlignment - misaligned;
+  memory_ += skip < bytes ? skip : bytes;
+  capacity_ = skip < bytes ? bytes - skip : 0;
+}
+
+void Arena::begin_part(const char* name) {
+  for (int32_t i = 0; i < part_count_; ++i) {
+    if (std::strcmp(parts_[i].name, name) == 0) {
+      part_ = i;
+      return;
+    }
+  }
+  UNISIM_CHECK(part_count_ < kMaxParts);
+  if (part_count_ == kMaxParts) return;
+  parts_[part_count_] = {name, 0};
+  part_ = part_count_++;
+}
+
+void* Arena::take_bytes(size_t bytes) {
+  const size_t padded = (bytes + kAlignment - 1) / kAlignment * kAlignment;
+  const size_t start = used_;
+  used_ += padded;
+  if (part_ >= 0) parts_[part_].bytes += padded;
+  if (memory_ == nullptr) return nullptr;
+  if (used_ > capacity_) ok_ = false;
+  return ok_ ? memory_ + start : nullptr;
+}
+
+}  // namespace unisim

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Result codes of core calls.
+#pragma once
+
+#include <cstdint>
+
+namespace unisim {
+
+/// Result of a call. The numbers are those of unisim.h and never move; capi asserts that they
+/// agree.
+enum class [[nodiscard]] Status : int32_t {
+  kOk = 0,
+  kInvalidArgument = 1,  ///< non-finite number, unknown id: the caller's mistake
+  kCapacity = 2,         ///< a declared capacity is too small
+  kOutOfMemory = 3,      ///< the arena is too small
+  kNotReady = 4,         ///< nothing to do or to give yet
+  kNumerical = 5,        ///< no descent or not positive definite
+  kInternal = 6,         ///< broken invariant
+  kAbiMismatch = 7,      ///< struct_size unknown (capi only)
+};
+
+constexpr bool is_ok(Status status) { return status == Status::kOk; }
+
+}  // namespace unisim

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Nodes and edges as the graph stores them, and what an edge contributes to the cost.
+#pragma once
+
+#include <cstdint>
+
+#include "core/graph/robust_kernel.hpp"
+#include "core/lie/sim3.hpp"
+
+namespace unisim {
+
+enum class NodeKind : uint8_t { kKeyframe, kSubmap };
+
+/// Keyframe (T_world_kf) or submap (T_world_submap).
+struct Node {
+  Sim3 T_world_node;
+  NodeKind kind = NodeKind::kKeyframe;
+  bool fixed = false;  ///< pose is held: the node has no columns in the system
+  bool alive = false;
+};
+
+enum class FactorKind : uint8_t { kTwoView, kBridge, kTie, kScaleAnchor, kScale };
+
+/// Pose factors have 7 rows and read P (and Q), scale factors have 1 and read log_ratio.
+constexpr bool is_pose_factor(FactorKind kind) { return kind <= FactorKind::kTie; }
+
+/// One factor between nodes a and b. Its cost is rho(u), u = sqrt(information * multiplier) |e|.
+struct Edge {
+  int32_t a = -1;
+  int32_t b = -1;
+  int32_t P = -1;            ///< measurement slot, pose factors only
+  int32_t Q = -1;            ///< second measurement slot of a tie; -1: identity
+  double log_ratio = 0.0;    ///< c of a scale factor
+  double information = 1.0;  ///< weight of the factor kind, > 0
+  double multiplier = 1.0;   ///< weight of this edge for its quality, >= 0
+  RobustKernel kernel;
+  FactorKind kind = FactorKind::kTwoView;
+  bool alive = false;
+  bool suspended = false;  ///< kept with its place in the system, contributes nothing
+
+  double weight() const { return information * multiplier; }
+  bool active() const { return alive && !suspended; }
+};
+
+}  // namespace unisim

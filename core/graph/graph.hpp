@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// Factor graph on Sim(3) in arena memory.
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/arena.hpp"
+#include "core/base/fixed_vector.hpp"
+#include "core/base/status.hpp"
+#include "core/graph/edge.hpp"
+
+namespace unisim {
+
+/// Largest numbers a graph holds at a time.
+struct GraphCapacity {
+  int32_t nodes = 0;
+  int32_t edges = 0;
+  int32_t measurements = 0;  ///< 1 per two_view and bridge edge, 2 per tie edge, 0 per scale edge
+};
+
+/// What every edge is given besides its measurement.
+struct EdgeWeight {
+  double information = 1.0;  ///< > 0, finite
+  double multiplier = 1.0;   ///< >= 0, finite
+  RobustKernel kernel;
+};
+
+/// Nodes (poses) and edges (factors), addressed by ids that stay until the item is removed; ids of
+/// removed items are used again. Calls that fail leave the graph as it was.
+class Graph {
+ public:
+  Graph() = default;
+  Graph(Arena& arena, const GraphCapacity& capacity);
+
+  /// Remove everything.
+  void clear();
+
+  // ---- nodes
+  /// @return kOk; kInvalidArgument for a pose that is not valid(); kCapacity
+  Status add_node(NodeKind kind, const Sim3& T_world_node, int32_t* id);
+  /// Remove a node and all its edges. Linear in edges. kInvalidArgument for an unknown id.
+  Status remove_node(int32_t id);
+  /// Hold or release a pose (gauge: hold one node of each connected component).
+  Status set_fixed(int32_t id, bool fixed);
+  Status set_pose(int32_t id, const Sim3& T_world_node);
+  bool has_node(int32_t id) const;
+  const Node& node(int32_t id) const { return nodes_[id]; }
+  const Sim3& pose(int32_t id) const { return nodes_[id].T_world_node; }
+  /// Ids are below this; slots of removed nodes are not alive.
+  int32_t node_end() const { return nodes_.size(); }
+  int32_t node_count() const { return node_count_; }
+
+  // ---- edges: a is the first node of the factor's formula, b the second
+  /// @param Z_i_j two_view_measurement()
+  /// @return kOk; kInvalidArgument: unknown or equal nodes, bad pose or weight; kCapacity
+  Status add_two_view(int32_t i, int32_t j, const Sim3& Z_i_j, const EdgeWeight& weight,
+                      int32_t* id);
+  /// @param Z_m_i bridge_measurement()
+  Status add_bridge(int32_t submap, int32_t keyframe, const Sim3& Z_m_i, const EdgeWeight& weight,
+                    int32_t* id);
+  /// @param P tie_measurement()
+  Status add_tie(int32_t m, int32_t n, const Sim3& P, const Sim3& T_submap_n_kf,
+                 const EdgeWeight& weight, int32_t* id);
+  /// @param log_rho_mi log of the depth ratio, finite
+  Status add_scale_anchor(int32_t submap, int32_t keyframe, double log_rho_mi,
+                          const EdgeWeight& weight, int32_t* id);
+  Status add_scale(int32_t m, int32_t n, double log_c, const EdgeWeight& weight, int32_t* id);
+  Status remove_edge(int32_t id);
+
+  /// Put a new measurement into a two_view or bridge edge.
+  Status set_measurement(int32_t id, const Sim3& Z);
+  /// Put new measurements into a tie edge.
+  Status set_tie_measurement(int32_t id, const Sim3& P, const Sim3& T_submap_n_kf);
+  /// Put a new log ratio into a scale_anchor or scale edge.
+  Status set_log_ratio(int32_t id, double log_ratio);
+  Status set_multiplier(int32_t id, double multiplier);
+  /// A suspended edge keeps its id and place but contributes nothing.
+  Status set_suspended(int32_t id, bool suspended);
+
+  bool has_edge(int32_t id) const;
+  const Edge& edge(int32_t id) const { return edges_[id]; }
+  int32_t edge_end() const { return edges_.size(); }
+  int32_t edge_count() const { return edge_count_; }
+  const Sim3& measurement(int32_t slot) const { return measurements_[slot]; }
+
+  /// Whitened norm u = sqrt(information * multiplier) |e| of an edge at the present poses,
+  /// suspended or not.
+  double edge_norm(int32_t id) const;
+  /// Sum of rho(u) over active edges.
+  double cost() const;
+
+  /// Grows when nodes, edges or fixed flags change: the structure of the system is another one.
+  uint64_t structure_revision() const { return structure_revision_; }
+  /// Grows with every change, poses and measurements included.
+  uint64_t revision() const { return revision_; }
+
+ private:
+  Status add_edge(const Edge& edge, int32_t* id);
+  Status add_pose_edge(FactorKind kind, int32_t a, int32_t b, const Sim3& P, const Sim3* Q,
+                       const EdgeWeight& weight, int32_t* id);
+  Status add_scale_edge(FactorKind kind, int32_t a, int32_t b, double log_ratio,
+                        const EdgeWeight& weight, int32_t* id);
+  bool joins_two_nodes(int32_t a, int32_t b) const;
+  int32_t take_measurement(const Sim3& value);
+  void release_edge(int32_t id);
+  void structure_changed();
+
+  FixedVector<Node> nodes_;
+  FixedVector<int32_t> free_nodes_;
+  FixedVector<Edge> edges_;
+  FixedVector<int32_t> free_edges_;
+  FixedVector<Sim3> measurements_;
+  FixedVector<int32_t> free_measurements_;
+  int32_t node_count_ = 0;
+  int32_t edge_count_ = 0;
+  uint64_t structure_revision_ = 1;
+  uint64_t revision_ = 1;
+};
+
+/// e of an edge at the given poses; rows beyond the first are zero for scale factors.
+Vec7 edge_residual(const Graph& graph, const Edge& edge);
+
+}  // namespace unisim

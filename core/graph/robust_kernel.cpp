@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Robust kernels by name.
+#include "core/graph/robust_kernel.hpp"
+
+#include "core/graph/geman_mcclure.hpp"
+#include "core/graph/huber.hpp"
+
+namespace unisim {
+
+RobustCost robust_cost(const RobustKernel& kernel, double u_squared) {
+  switch (kernel.kind) {
+    case RobustKernelKind::kHuber:
+      return huber(u_squared, kernel.delta);
+    case RobustKernelKind::kGemanMcClure:
+      return geman_mcclure(u_squared, kernel.delta);
+    case RobustKernelKind::kNone:
+      break;
+  }
+  return {0.5 * u_squared, 1.0};
+}
+
+}  // namespace unisim

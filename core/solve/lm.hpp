@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Levenberg-Marquardt on a Sim(3) graph.
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/arena.hpp"
+#include "core/base/status.hpp"
+#include "core/graph/graph.hpp"
+#include "core/solve/block_cholesky.hpp"
+#include "core/solve/block_pattern.hpp"
+#include "core/solve/normal_equations.hpp"
+
+namespace unisim {
+
+struct LmOptions {
+  int32_t max_iterations = 10;   ///< accepted and rejected steps together, >= 0
+  double initial_lambda = 1e-4;  ///< damping lambda diag(H), > 0
+  double cost_tolerance = 1e-7;  ///< stop at this relative change of the cost
+  double step_tolerance = 1e-7;  ///< stop when no component of the step is larger
+  double max_log_scale_step =
+      1.0;  ///< a step with a larger log-scale component is shortened as a whole
+};
+
+/// Why an optimisation ended; numbers of UNISIM_STOP_*.
+enum class LmStop : int32_t {
+  kConverged = 0,
+  kBudget = 1,
+  kNoDescent = 2,   ///< damping at its limit without a lower cost
+  kNotPositive = 3  ///< damping at its limit or iterations used up without a factor
+};
+
+struct LmReport {
+  LmStop stop = LmStop::kConverged;
+  int32_t iterations = 0;  ///< accepted and rejected steps, failed factorisations included
+  int32_t accepted = 0;
+  int64_t factor_blocks = 0;  ///< blocks of L, diagonal included; the needed number on kCapacity
+  int32_t bad_node = -1;      ///< node of the last pivot that failed, -1 if none
+  double initial_cost = 0.0;
+  double final_cost = 0.0;
+  double lambda = 0.0;  ///< damping at the end
+};
+
+/// Minimises the cost of a graph over its free nodes, in memory carved at construction. Serves one
+/// graph; the symbolic phase is repeated only when the graph's structure has changed.
+class LevenbergMarquardt {
+ public:
+  LevenbergMarquardt() = default;
+  LevenbergMarquardt(Arena& arena, const SolverCapacity& capacity);
+
+  /// Optimise from the present poses; they end at the last accepted step, whatever happens.
+  /// @return kOk (converged or budget used up); kNumerical for the other stops; kNotReady without a
+  ///         free node or an edge; kCapacity when the graph or its factor is larger than declared
+  ///         (poses unchanged, report->factor_blocks says what the factor needs)
+  Status optimize(Graph* graph, const LmOptions& options, LmReport* report);
+
+  /// Marginal covariance of a free node at the present poses: its 7x7 block of H^-1, in the node's
+  /// tangent space. Costs a factorisation when poses have changed since the last call, then one
+  /// solve with seven right-hand sides.
+  /// @return kOk; kInvalidArgument for an unknown or fixed node; kNumerical when H is singular;
+  ///         kCapacity and kNotReady as optimize()
+  Status marginal_covariance(const Graph& graph, int32_t node, Mat7* covariance);
+
+  /// The analysed structure; valid after a successful call of the two above.
+  const BlockPattern& pattern() const { return pattern_; }
+
+ private:
+  Status prepare(const Graph& graph, LmReport* report);
+  bool find_step(const Graph& graph, const LmOptions& options, double lambda, LmReport* report);
+  double predicted_decrease(double lambda) const;
+  void apply_step(Graph* graph);
+  void restore_poses(Graph* graph) const;
+
+  BlockPattern pattern_;
+  NormalEquations equations_;
+  BlockCholesky cholesky_;
+  Span<BlockVector> step_;
+  Span<Sim3> saved_;
+  double step_size_ = 0.0;           // largest component of step_
+  uint64_t structure_revision_ = 0;  // of the analysed graph
+  uint64_t undamped_revision_ = 0;   // of the graph whose H the undamped factor holds
+};
+
+}  // namespace unisim
