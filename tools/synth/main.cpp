@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// unisim-synth: renders a sequence with exact ground truth.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "tools/synth/sequence.hpp"
+
+namespace {
+
+using unisim::synth::SequenceOptions;
+
+int fail(int exit_code, const std::string& message) {
+  const std::string line = message.substr(0, message.find('\n'));
+  std::fprintf(stderr, "unisim-synth: %s\n", line.c_str());
+  return exit_code;
+}
+
+void parse_size(const std::string& text, SequenceOptions* options) {
+  int read = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%n", &options->width, &options->height, &read) != 2 ||
+      read != static_cast<int>(text.size())) {
+    throw CLI::ValidationError("--size", "must look like 640x480, not " + text);
+  }
+}
+
+void run(const SequenceOptions& options, bool quiet) {
+  unisim::synth::write_sequence(options, [&](int done) {
+    if (!quiet) {
+      std::fprintf(stderr, "\r%d of %d frames", done, options.frames);
+    }
+  });
+  if (!quiet) {
+    std::fprintf(stderr, "\r");
+    std::printf("%d frames of %s, %dx%d, in %s\n", options.frames, options.scene.c_str(),
+                options.width, options.height, options.folder.c_str());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  SequenceOptions options;
+  std::string size = "640x480";
+  bool quiet = false;
+  CLI::App app("Render a textured scene with exact ground truth into a TUM-style folder.");
+  app.set_version_flag("--version", UNISIM_SYNTH_VERSION);
+  app.add_option("OUT", options.folder, "folder to write, made if absent")->required();
+  app.add_option("--scene", options.scene, "room corridor desk rotation lowtexture static")
+      ->capture_default_str();
+  app.add_option("--frames", options.frames, "number of frames")->capture_default_str();
+  app.add_option("--size", size, "image size, WxH")->capture_default_str();
+  app.add_option("--loops", options.loops, "rounds of the path; 0: open path [1; corridor 0]");
+  app.add_option("--seed", options.seed, "of scene, path and noise")->capture_default_str();
+  app.add_option("--focal", options.focal_px, "focal length in pixels [0.82 x width]");
+  app.add_option("--radial", options.radial_k1, "radial distortion term k1")->capture_default_str();
+  app.add_option("--fps", options.fps, "frames per second")->capture_default_str();
+  app.add_flag("--blur", options.blur, "motion blur of half the frame time");
+  app.add_flag("--noise", options.noise, "sensor noise");
+  app.add_flag("--exposure", options.exposure_jumps, "jumps of exposure");
+  app.add_flag("--jpg", options.jpeg, "color images as JPEG, quality 95, in place of PNG");
+  app.add_option("--threads", options.threads, "0: one per core")->capture_default_str();
+  app.add_flag("--force", options.force, "replace an earlier sequence in OUT");
+  app.add_flag("--quiet", quiet, "print nothing but errors");
+  try {
+    app.parse(argc, argv);
+    parse_size(size, &options);
+    run(options, quiet);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return error.get_exit_code() == 0 ? app.exit(error)
+                                      : fail(unisim::synth::kBadUsage, error.what());
+  } catch (const unisim::synth::SynthError& error) {
+    return fail(error.exit_code(), error.what());
+  } catch (const std::exception& error) {
+    return fail(1, error.what());
+  }
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Ray casting of a scene of rectangles, with smoothed edges and exact depth.
+//
+// On a plane, 1/z is affine in the ray's x and y and so are the numerators of its surface
+// coordinates; a ray costs a few multiplications per rectangle that its tile can see.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "tools/synth/camera.hpp"
+#include "tools/synth/scene.hpp"
+
+namespace unisim::synth {
+
+/// Linear sum of rendered frames, RGB, row-major.
+using ColorImage = std::vector<Color>;
+/// z-depth in metres at pixel centres, row-major; 0 where nothing is seen.
+using DepthImage = std::vector<float>;
+
+class Renderer {
+ public:
+  /// @param scene  must outlive the renderer
+  Renderer(const Scene& scene, const Camera& camera);
+
+  /// Add the view from T_world_cam to `colors`. @param depth  NULL when not wanted
+  void render(const Eigen::Isometry3d& T_world_cam, ColorImage* colors, DepthImage* depth) const;
+
+ private:
+  /// A face as seen from one pose; see the file's head.
+  struct Plane {
+    Eigen::Vector3f inverse_depth;  ///< times (x, y, 1) gives 1/z
+    Eigen::Vector3f axis_u;
+    Eigen::Vector3f axis_v;
+    float offset_u = 0;
+    float offset_v = 0;
+    float width = 0;
+    float height = 0;
+    Eigen::Matrix<double, 3, 4> corners;  ///< in the camera frame
+    const Texture* texture = nullptr;
+  };
+  struct Hit {
+    const Plane* plane = nullptr;
+    float inverse_depth = 0;
+    float u = 0;
+    float v = 0;
+  };
+  /// First and last pixel of a tile, last not included.
+  struct Tile {
+    int left = 0;
+    int top = 0;
+    int right = 0;
+    int bottom = 0;
+  };
+  using Planes = std::vector<Plane>;
+  using Candidates = std::vector<const Plane*>;
+
+  Planes place(const Eigen::Isometry3d& T_world_cam) const;
+  void find_candidates(const Planes& planes, const Tile& tile, Candidates* candidates) const;
+  void render_tile(const Tile& tile, const Candidates& candidates, ColorImage* colors,
+                   DepthImage* depth) const;
+  static Hit nearest(const Candidates& candidates, const Eigen::Vector2f& ray);
+  static Color shade(const Hit& hit, float pixel);
+  Color shade_edge(const Candidates& candidates, int column, int row) const;
+  const Eigen::Vector2f& corner_ray(int column, int row) const {
+    return corner_rays_[static_cast<size_t>(row) * static_cast<size_t>(camera_.width + 1) +
+                        static_cast<size_t>(column)];
+  }
+
+  const Scene& scene_;
+  Camera camera_;
+  std::vector<Eigen::Vector2f> center_rays_;
+  std::vector<Eigen::Vector2f> corner_rays_;
+};
+
+}  // namespace unisim::synth
