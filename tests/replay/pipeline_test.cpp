@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: MIT
+// The pipeline with a scripted predictor and the real session.
+#include "drivers/pipeline/pipeline.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "drivers/pipeline/similarity.hpp"
+#include "tests/replay/scripted_world.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace unisim::pipeline;
+using unisim::testing::ScriptedPredictor;
+using unisim::testing::ScriptedSource;
+using unisim::testing::true_pose;
+
+namespace {
+
+class Recorder : public Listener {
+ public:
+  void on_message(const std::string& line) override { lines.push_back(line); }
+  void on_window(int32_t, const unisim_window_prediction&) override { ++windows; }
+  void on_revision(int32_t, const unisim_window_revision&) override { ++revisions; }
+
+  bool told(const std::string& part) const {
+    for (const std::string& line : lines) {
+      if (line.find(part) != std::string::npos) return true;
+    }
+    return false;
+  }
+
+  std::vector<std::string> lines;
+  int windows = 0;
+  int revisions = 0;
+};
+
+/// One run of 200 frames at stride 5 with everything a test may want to change.
+struct Run {
+  explicit Run(int64_t frames = 200) : source(frames) {
+    REQUIRE(unisim_config_init(&config, sizeof config) == UNISIM_OK);
+    config.max_keyframes = 64;
+    config.window_size = 8;
+    config.live_scale_exponent = 1.0;
+    options.keyframes.stride = 5;
+  }
+
+  const Result& go() {
+    pipeline = std::make_unique<Pipeline>(options, source.table(), predictor.table(), config,
+                                          std::vector<Listener*>{&listener}, &stop);
+    return pipeline->run();
+  }
+
+  unisim_session_info info() const {
+    unisim_session_info out{};
+    out.struct_size = sizeof out;
+    REQUIRE(unisim_get_info(pipeline->session(), &out) == UNISIM_OK);
+    return out;
+  }
+
+  unisim_pose pose(int32_t keyframe) const {
+    unisim_pose out{};
+    out.struct_size = sizeof out;
+    REQUIRE(unisim_get_pose(pipeline->session(), keyframe, &out) == UNISIM_OK);
+    return out;
+  }
+
+  /// Largest distance of a keyframe from the truth, in true units.
+  double worst_error() const {
+    double worst = 0.0;
+    for (size_t k = 0; k < predictor.keyframes.size(); ++k) {
+      const unisim_sim3 T = pose(static_cast<int32_t>(k)).T_world_kf;
+      worst = std::max(worst, distance(T, predictor.keyframes[k]));
+    }
+    return worst;
+  }
+
+  /// The world is in the unit of the first pair.
+  static double distance(const unisim_sim3& T, int64_t frame) {
+    const unisim_sim3 truth = true_pose(frame);
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      sum += std::pow(T.t[k] / ScriptedPredictor::pair_unit(0) - truth.t[k], 2);
+    }
+    return std::sqrt(sum);
+  }
+
+  ScriptedSource source;
+  ScriptedPredictor predictor;
+  unisim_config config;
+  Options options;
+  std::atomic<bool> stop{false};
+  Recorder listener;
+  std::unique_ptr<Pipeline> pipeline;
+};
+
+}  // namespace
+
+TEST_CASE("exact predictions give the exact trajectory") {
+  Run run;
+  const Result& result = run.go();
+  REQUIRE(result.outcome == Outcome::kFinished);
+  REQUIRE(run.predictor.keyframes.size() == 40);
+  CHECK(run.predictor.observed == 200);
+  CHECK(run.predictor.keyframes[7] == 35);
+  CHECK(run.info().posed_keyframes == 40);
+  CHECK(run.listener.windows == run.info().submaps);
+  CHECK(run.worst_error() < 1e-6);
+  REQUIRE(result.live.size() == 40);
+  for (size_t k = 0; k < 40; ++k) {
+    CHECK(Run::distance(result.live[k].T_world_cam, run.predictor.keyframes[k]) < 1e-6);
+  }
+}
+
+TEST_CASE("the last keyframes are covered by a shorter window") {
+  Run run;
+  run.go();
+  CHECK(run.pose(39).submap_id >= 0);
+}
+
+TEST_CASE("poses come late, but all of them, while the predictor starts") {
+  Run run;
+  run.predictor.pending_until = 13;
+  const Result& result = run.go();
+  REQUIRE(result.outcome == Outcome::kFinished);
+  CHECK(result.live.size() == 40);
+  CHECK(run.info().posed_keyframes == 40);
+  CHECK(run.worst_error() < 1e-6);
+}
+
+TEST_CASE("a predictor that never starts leaves no poses and no error") {
+  Run run;
+  run.predictor.pending_until = 1000;
+  const Result& result = run.go();
+  CHECK(result.outcome == Outcome::kFinished);
+  CHECK(result.live.empty());
+  CHECK(run.info().submaps == 0);
+}
+
+TEST_CASE("a rejected pair is told, counted and survived") {
+  Run run;
+  run.predictor.rejected_pairs = {11};
+  const Result& result = run.go();
+  CHECK(result.outcome == Outcome::kFinished);
+  CHECK(run.info().pairs_refused == 1);
+  CHECK(run.listener.told("pair 11,12: scripted"));
+}
+
+TEST_CASE("a rejected window is told and survived") {
+  Run run;
+  run.predictor.rejected_windows = {6};
+  const Result& result = run.go();
+  CHECK(result.outcome == Outcome::kFinished);
+  CHECK(run.listener.told("window of keyframes 6..13: scripted"));
+  CHECK(run.worst_error() < 1e-6);
+}
+
+TEST_CASE("predictions that are not finite or of the wrong size are refused, not fatal") {
+  Run run;
+  SECTION("pair pose") { run.predictor.nan_pairs = {4}; }
+  SECTION("pair depth") { run.predictor.empty_pairs = {4}; }
+  SECTION("window pose") { run.predictor.nan_windows = {6}; }
+  SECTION("window ids") { run.predictor.wrong_window_ids = true; }
+  CHECK(run.go().outcome == Outcome::kFinished);
+  CHECK(run.listener.told("not finite or has a wrong size"));
+}
+
+TEST_CASE("messages of one kind are told five times, then counted") {
+  Run run;
+  for (int64_t k = 50; k < 70; ++k) run.source.bad.insert(k);
+  run.go();
+  int told = 0;
+  for (const std::string& line : run.listener.lines) {
+    if (line.find(": scripted") != std::string::npos) ++told;
+  }
+  CHECK(told == 5);
+  CHECK(run.listener.told("and 15 more unreadable frames"));
+}
+
+TEST_CASE("the stop flag ends the run with what there is") {
+  Run run(100000);
+  run.source.before_frame = [&run](int64_t frame) {
+    if (frame == 60) run.stop.store(true);
+  };
+  const Result& result = run.go();
+  CHECK(result.outcome == Outcome::kStopped);
+  REQUIRE(run.predictor.keyframes.size() >= 8);
+  CHECK(run.predictor.keyframes.size() <= 13);
+  CHECK(static_cast<size_t>(run.info().posed_keyframes) == run.predictor.keyframes.size());
+  CHECK(run.worst_error() < 1e-6);
+}
+
+TEST_CASE("a full map ends the run with a complete map") {
+  Run run;
+  run.config.max_keyframes = 20;
+  const Result& result = run.go();
+  CHECK(result.outcome == Outcome::kCapacity);
+  CHECK(result.message.find("raise session.max_keyframes") != std::string::npos);
+  CHECK(run.info().posed_keyframes == 20);
+  CHECK(run.worst_error() < 1e-6);
+}
+
+TEST_CASE("unreadable, resized and repeated frames are skipped and counted") {
+  Run run;
+  run.source.bad = {17};
+  run.source.resized = {31, 32};
+  run.source.repeated_time = {44};
+  const Result& result = run.go();
+  CHECK(result.outcome == Outcome::kFinished);
+  CHECK(result.progress.frames_bad == 4);
+  CHECK(result.progress.frames == 196);
+  CHECK(run.listener.told("frame 31: image is 16x11 gray, the first one was 16x12 gray"));
+  CHECK(run.listener.told("frame 44: time stamp is not after the one before"));
+}
+
+TEST_CASE("a source or predictor that gives up ends the run with what there is") {
+  Run run;
+  SECTION("source") {
+    run.source.fails_at = 100;
+    CHECK(run.go().outcome == Outcome::kSourceFailed);
+    CHECK(run.info().posed_keyframes == 20);
+  }
+  SECTION("predictor") {
+    run.predictor.fails_at = 100;
+    CHECK(run.go().outcome == Outcome::kPredictorFailed);
+    CHECK(run.info().posed_keyframes == 20);
+  }
+}
+
+TEST_CASE("a configuration the session refuses is known before any frame is read") {
+  Run run;
+  run.config.window_overlap = run.config.window_size;
+  Pipeline pipeline(run.options, run.source.table(), run.predictor.table(), run.config, {});
+  CHECK_FALSE(pipeline.prepare().empty());
+  CHECK(pipeline.run().outcome == Outcome::kSessionFailed);
+  CHECK(run.predictor.observed == 0);
+}
+
+TEST_CASE("pixels reach the predictor whole, whoever of the two threads is slower") {
+  Run run(120);
+  SECTION("slow source") {
+    run.source.before_frame = [](int64_t) {
+      std::this_thread::sleep_for(std::chrono::microseconds(300));
+    };
+  }
+  SECTION("fast source, short queue") { run.options.queue_frames = 1; }
+  run.go();
+  CHECK(run.predictor.observed == 120);
+  CHECK(run.predictor.moved_off == 0);
+}
+
+TEST_CASE("two runs give the same bits, however the threads are timed") {
+  Run first;
+  Run second;
+  second.options.queue_frames = 1;
+  second.source.before_frame = [](int64_t frame) {
+    std::this_thread::sleep_for(std::chrono::microseconds(frame % 7 * 100));
+  };
+  for (Run* run : {&first, &second}) {
+    run->predictor.window_noise = 0.01;
+    run->options.keyframes.stride = 0;
+    run->predictor.flow = 0.007;
+    run->go();
+  }
+  REQUIRE(first.predictor.keyframes == second.predictor.keyframes);
+  REQUIRE(first.predictor.keyframes.size() == 40);
+  for (int32_t k = 0; k < 40; ++k) {
+    const unisim_sim3 a = first.pose(k).T_world_kf;
+    const unisim_sim3 b = second.pose(k).T_world_kf;
+    REQUIRE(std::memcmp(&a, &b, sizeof a) == 0);
+  }
+}
+
+TEST_CASE("frames between keyframes are posed when asked for") {
+  Run run;
+  run.options.every_frame = true;
+  const Result& result = run.go();
+  // Before the second keyframe there is no pair and no unit to pose them in.
+  CHECK(result.between.size() == 200 - 40 - 4);
+  CHECK(result.live.size() == 200 - 4);
+  for (const BetweenPose& between : result.between) {
+    const unisim_sim3 T = compose(run.pose(between.keyframe_id).T_world_kf, between.T_kf_frame);
+    const int64_t frame = between.timestamp_ns / 33333333;
+    REQUIRE(Run::distance(T, frame) < 1e-6);
+  }
+}
+
+TEST_CASE("windows measured anew replace the old measurement") {
+  Run run;
+  run.predictor.window_noise = 0.02;
+  run.go();
+  const double before = run.worst_error();
+  Run revised;
+  revised.predictor.window_noise = 0.02;
+  revised.predictor.revises = true;
+  revised.go();
+  CHECK(before > 1e-3);
+  CHECK(revised.listener.revisions >= 5);
+  // The last window is asked for after the revisions and keeps its noise.
+  CHECK(revised.worst_error() < before);
+  double first_half = 0.0;
+  for (int32_t k = 0; k < 20; ++k) {
+    const unisim_sim3 T = revised.pose(k).T_world_kf;
+    first_half = std::max(first_half, Run::distance(T, 5 * k));
+  }
+  CHECK(first_half < 1e-3);
+}
+
+TEST_CASE("a realtime run drops the frames it is late for") {
+  Run run(30);
+  run.options.realtime = true;
+  run.source.before_frame = [](int64_t frame) {
+    if (frame == 10) std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  };
+  const Result& result = run.go();
+  CHECK(result.progress.frames_dropped > 0);
+  CHECK(result.progress.frames + result.progress.frames_dropped == 30);
+  CHECK(result.wall_s > 0.9);
+}
+
+TEST_CASE("capacity follows from the length of the sequence") {
+  KeyframeConfig keyframes;
+  keyframes.stride = 5;
+  CHECK(keyframe_capacity(500, keyframes, 1024) >= 100);
+  CHECK(keyframe_capacity(500, keyframes, 1024) <= 102);
+  CHECK(keyframe_capacity(-1, keyframes, 1024) == 1024);
+  keyframes.stride = 0;
+  keyframes.min_gap = 2;
+  CHECK(keyframe_capacity(500, keyframes, 1024) >= 250);
+}

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// A scripted camera path, source and predictor.
+#include "tests/replay/scripted_world.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "drivers/pipeline/similarity.hpp"
+
+namespace unisim::testing {
+namespace {
+
+constexpr int32_t kWidth = 16;
+constexpr int32_t kHeight = 12;
+constexpr int64_t kFrame_ns = 33333333;
+
+unisim_sim3 inverse(const unisim_sim3& T) {
+  const unisim_sim3 turn = {{-T.q[0], -T.q[1], -T.q[2], T.q[3]}, {0, 0, 0}, 1.0};
+  const unisim_sim3 back = {{0, 0, 0, 1}, {-T.t[0], -T.t[1], -T.t[2]}, 1.0};
+  return pipeline::compose(turn, back);
+}
+
+}  // namespace
+
+unisim_sim3 true_pose(int64_t index) {
+  const double a = 0.01 * static_cast<double>(index);
+  const double half = 0.3 * std::sin(a) / 2.0;
+  return {{0.0, std::sin(half), 0.0, std::cos(half)},
+          {std::sin(2.0 * a), 0.2 * std::sin(3.0 * a), 0.5 * a},
+          1.0};
+}
+
+unisim_sim3 relative_pose(const unisim_sim3& a, const unisim_sim3& b, double unit) {
+  unisim_sim3 T = pipeline::compose(inverse(a), b);
+  for (double& part : T.t) part *= unit;
+  return T;
+}
+
+ScriptedSource::ScriptedSource(int64_t count)
+    : count_(count), pixels_(size_t{2} * kWidth * kHeight) {
+  handle_.self = this;
+  unisim_source& t = handle_.table;
+  t.format = "scripted";
+  t.frame_count = [](unisim_source* s) { return self(s)->count_; };
+  t.next_frame = [](unisim_source* s, int, unisim_frame* frame) { return self(s)->next(frame); };
+  t.decode = [](unisim_source*, unisim_frame*) { return UNISIM_FRAME_OK; };
+  t.ground_truth = [](unisim_source*, const unisim_stamped_pose**) { return int64_t{0}; };
+  t.ground_truth_path = [](unisim_source*) { return ""; };
+  t.message = [](unisim_source* s) { return self(s)->message_.c_str(); };
+  t.destroy = [](unisim_source*) {};
+}
+
+ScriptedSource* ScriptedSource::self(unisim_source* source) {
+  return reinterpret_cast<Handle*>(source)->self;
+}
+
+int ScriptedSource::next(unisim_frame* frame) {
+  if (next_ >= count_) return UNISIM_FRAME_END;
+  const int64_t index = next_++;
+  if (before_frame) before_frame(index);
+  message_ = "frame " + std::to_string(index) + ": scripted";
+  if (index == fails_at) return UNISIM_FRAME_FAILED;
+  if (bad.count(index) != 0) return UNISIM_FRAME_BAD;
+  pixels_.assign(pixels_.size(), static_cast<uint8_t>(index));
+  const int64_t time = repeated_time.count(index) != 0 ? index - 1 : index;
+  const int32_t height = resized.count(index) != 0 ? kHeight - 1 : kHeight;
+  *frame = {
+      index, time * kFrame_ns, {pixels_.data(), kWidth, height, 2 * kWidth, UNISIM_PIXEL_GRAY8}};
+  return UNISIM_FRAME_OK;
+}
+
+ScriptedPredictor::ScriptedPredictor() {
+  handle_.self = this;
+  unisim_predictor& t = handle_.table;
+  t.name = "scripted";
+  t.needs_images = 1;
+  t.observe = [](unisim_predictor* p, const unisim_frame* f, unisim_motion* m) {
+    return self(p)->observe(f, m);
+  };
+  t.keyframe = [](unisim_predictor* p, const unisim_frame* f, int32_t id) {
+    const bool in_order = id == static_cast<int32_t>(self(p)->keyframes.size());
+    self(p)->keyframes.push_back(f->index);
+    return in_order ? UNISIM_PREDICTION_OK : UNISIM_PREDICTION_FAILED;
+  };
+  t.two_view = [](unisim_predictor* p, int32_t i, int32_t j, unisim_pair_prediction* out) {
+    return self(p)->two_view(i, j, out);
+  };
+  t.multi_view = [](unisim_predictor* p, const int32_t* ids, int32_t count,
+                    unisim_window_prediction* out) { return self(p)->multi_view(ids, count, out); };
+  t.next_revision = [](unisim_predictor* p, unisim_window_revision* out) {
+    return self(p)->next_revision(out);
+  };
+  t.frame_pose = [](unisim_predictor* p, unisim_frame_pose* out) {
+    return self(p)->frame_pose(out);
+  };
+  t.finish = [](unisim_predictor* p) {
+    self(p)->finished_ = true;
+    return UNISIM_PREDICTION_OK;
+  };
+  t.info = [](unisim_predictor*, unisim_predictor_info* out) {
+    *out = {};
+    out->initialised = 1;
+  };
+  t.message = [](unisim_predictor* p) { return self(p)->message_.c_str(); };
+  t.destroy = [](unisim_predictor*) {};
+}
+
+ScriptedPredictor* ScriptedPredictor::self(unisim_predictor* predictor) {
+  return reinterpret_cast<Handle*>(predictor)->self;
+}
+
+double ScriptedPredictor::pair_unit(int32_t i) { return std::ldexp(1.0, (i * 5) % 4 - 1); }
+
+double ScriptedPredictor::window_unit(int32_t first) { return std::ldexp(1.0, first % 3 - 1); }
+
+unisim_depth_map ScriptedPredictor::depth_of(int32_t keyframe, double unit,
+                                             std::vector<float>* storage) const {
+  storage->resize(size_t{kWidth} * kHeight);
+  for (size_t k = 0; k < storage->size(); ++k) {
+    const double wave = std::sin(0.1 * static_cast<double>(k) + keyframe);
+    (*storage)[k] = static_cast<float>(2.0 + 0.5 * wave) * static_cast<float>(unit);
+  }
+  return {storage->data(), nullptr, kWidth, kHeight};
+}
+
+int ScriptedPredictor::observe(const unisim_frame* frame, unisim_motion* motion) {
+  ++observed;
+  if (frame->index == fails_at) return UNISIM_PREDICTION_FAILED;
+  const unisim_image& image = frame->image;
+  if (image.data == nullptr || image.data[0] != static_cast<uint8_t>(frame->index)) ++moved_off;
+  newest_frame_ = frame->index;
+  const int64_t since = keyframes.empty() ? 0 : frame->index - keyframes.back();
+  *motion = {flow * static_cast<double>(since), -1.0, 0};
+  return UNISIM_PREDICTION_OK;
+}
+
+int ScriptedPredictor::two_view(int32_t i, int32_t j, unisim_pair_prediction* out) {
+  if (static_cast<int32_t>(keyframes.size()) < pending_until) return UNISIM_PREDICTION_PENDING;
+  if (rejected_pairs.count(i) != 0) return UNISIM_PREDICTION_REJECTED;
+  const double unit = pair_unit(i);
+  *out = {};
+  out->T_i_j = relative_pose(true_pose(keyframes.at(static_cast<size_t>(i))),
+                             true_pose(keyframes.at(static_cast<size_t>(j))), unit);
+  out->depth_i = depth_of(i, unit, &depth_i_);
+  out->depth_j = depth_of(j, unit, &depth_j_);
+  if (nan_pairs.count(i) != 0) out->T_i_j.t[1] = std::numeric_limits<double>::quiet_NaN();
+  if (empty_pairs.count(i) != 0) out->depth_j.width = 0;
+  return UNISIM_PREDICTION_OK;
+}
+
+void ScriptedPredictor::fill_poses(const std::vector<int32_t>& ids, double noise) {
+  window_poses_.clear();
+  const unisim_sim3 origin = true_pose(keyframes.at(static_cast<size_t>(ids[0])));
+  for (const int32_t id : ids) {
+    unisim_sim3 T = relative_pose(origin, true_pose(keyframes.at(static_cast<size_t>(id))),
+                                  window_unit(ids[0]));
+    T.t[1] += noise * std::sin(5.0 * id);
+    window_poses_.push_back(T);
+  }
+}
+
+int ScriptedPredictor::multi_view(const int32_t* ids, int32_t count,
+                                  unisim_window_prediction* out) {
+  if (static_cast<int32_t>(keyframes.size()) < pending_until) return UNISIM_PREDICTION_PENDING;
+  if (rejected_windows.count(ids[0]) != 0) return UNISIM_PREDICTION_REJECTED;
+  window_ids_.assign(ids, ids + count);
+  fill_poses(window_ids_, window_noise);
+  if (nan_windows.count(ids[0]) != 0) {
+    window_poses_.back().q[2] = std::numeric_limits<double>::quiet_NaN();
+  }
+  window_maps_.clear();
+  window_depths_.resize(window_ids_.size());
+  for (size_t k = 0; k < window_ids_.size(); ++k) {
+    window_maps_.push_back(depth_of(ids[k], window_unit(ids[0]), &window_depths_[k]));
+  }
+  *out = {};
+  out->token = ++next_token_;
+  if (revises) open_revisions_.push_back({out->token, window_ids_});
+  if (wrong_window_ids) window_ids_.back() += 1000;
+  out->count = count;
+  out->keyframe_ids = window_ids_.data();
+  out->T_window_kf = window_poses_.data();
+  out->depth = window_maps_.data();
+  return UNISIM_PREDICTION_OK;
+}
+
+int ScriptedPredictor::next_revision(unisim_window_revision* out) {
+  if (!finished_ || open_revisions_.empty()) return UNISIM_PREDICTION_PENDING;
+  const Window window = open_revisions_.back();
+  open_revisions_.pop_back();
+  fill_poses(window.ids, 0.0);
+  log_ratios_.assign(window.ids.size(), 0.0);
+  *out = {window.token, static_cast<int32_t>(window.ids.size()), window_poses_.data(),
+          log_ratios_.data(), 0.0};
+  return UNISIM_PREDICTION_OK;
+}
+
+int ScriptedPredictor::frame_pose(unisim_frame_pose* out) {
+  const auto newest = static_cast<int32_t>(keyframes.size()) - 1;
+  if (newest < 1) return UNISIM_PREDICTION_PENDING;
+  out->keyframe_id = newest;
+  out->T_kf_frame =
+      relative_pose(true_pose(keyframes.back()), true_pose(newest_frame_), pair_unit(newest - 1));
+  return UNISIM_PREDICTION_OK;
+}
+
+}  // namespace unisim::testing
