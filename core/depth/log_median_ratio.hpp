@@ -17,7 +17,7 @@ struct DepthGrid {
 
 /// How depth a compares with depth b.
 struct LogMedianRatio {
-  double log_ratio;  ///< log median(a / b)
+  double log_ratio;  ///< median of log(a / b): the log of the median ratio
   double scatter;    ///< median absolute deviation of the pixels' log ratios from log_ratio
   int32_t count;     ///< pixels used
 };
