@@ -92,10 +92,18 @@ class BundleAdjuster {
   std::size_t memory_bytes() const;  ///< held by the workspaces
 
  private:
-  struct Backup;
+  struct Workspace;
+  class CenterMap;
+
+  BundleStatus prepare(const BundleProblem& problem, const BundleOptions& options);
+  BundleStatus iterate(BundleProblem* problem, const BundleOptions& options, BundleResult* result);
+  double center_variance(const CenterMap& map);
+  void measure_residuals(const BundleProblem& problem, const BundleOptions& options,
+                         const std::int32_t* cameras, int count, BundlePrecision* out);
+
   BundleCapacity capacity_;
   std::unique_ptr<ReducedSystem> system_;
-  std::unique_ptr<Backup> backup_;
+  std::unique_ptr<Workspace> workspace_;
 };
 
 }  // namespace unisim::geometric

@@ -43,6 +43,15 @@ class TileCholesky {
   void forward(double* x, int first_slot) const;
   void backward(double* x) const;  ///< x <- L^-T x
 
+  /// Diagonal block of a slot, after factorize() that of L (entries above the diagonal mean
+  /// nothing).
+  Eigen::Matrix<double, kBlock, kBlock> diagonal_block(int slot) const {
+    const int corner = kBlock * (slot % kSlotsPerTile);
+    return Eigen::Map<const Eigen::Matrix<double, kTile, kTile>>(
+               tile(slot / kSlotsPerTile, slot / kSlotsPerTile))
+        .block<kBlock, kBlock>(corner, corner);
+  }
+
   int dimension() const { return kTile * tiles_; }  ///< rows with padding
   std::size_t memory_bytes() const;
 

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// What a bundle adjustment says about the precision of camera centres and intrinsics.
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/geometric/bundle/bundle_adjuster.hpp"
+#include "drivers/geometric/bundle/bundle_workspace.hpp"
+#include "drivers/geometric/bundle/reduced_system.hpp"
+#include "drivers/geometric/bundle/robust_cost.hpp"
+
+namespace unisim::geometric {
+namespace {
+
+// Just enough damping to factorise a system whose scale is free; the projection takes its effect
+// out.
+constexpr double kGaugeLambda = 1e-8;
+// Median of the norm of a two-dimensional unit normal variable.
+constexpr double kRayleighMedian = 1.1774;
+// Precision below which pixel positions are never trusted, scaled pixels.
+constexpr double kResidualFloor = 0.01;
+
+double median(std::vector<double>* values) {
+  if (values->empty()) return 0.0;
+  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
+  std::nth_element(values->begin(), middle, values->end());
+  return *middle;
+}
+
+}  // namespace
+
+/// Displacement of the centres of some cameras relative to the pose of one of them, with the scale
+/// direction taken out, as linear functions of the camera unknowns.
+class BundleAdjuster::CenterMap {
+ public:
+  CenterMap(const BundleProblem& problem, const ReducedSystem& system, const std::int32_t* cameras,
+            int count)
+      : problem_(problem), system_(system), cameras_(cameras), count_(count) {
+    reference_ = cameras[count / 2];
+    for (int i = 0; i < count; ++i) spread_ += relative(cameras[i]).squaredNorm();
+    spread_ = std::sqrt(spread_);
+  }
+
+  bool degenerate() const { return !(spread_ > 0.0); }
+  int count() const { return count_; }
+
+  /// Adds to `x` the gradient, by the unknowns, of coordinate `axis` of camera number `i` (in the
+  /// frame of the reference camera), its share of the change of scale removed.
+  void gradient(int i, int axis, double* x) const {
+    add(cameras_[i], Eigen::Vector3d::Unit(axis), x);
+    const double share = relative(cameras_[i])[axis] / spread_;
+    for (int k = 0; k < count_; ++k) {
+      add(cameras_[k], -share / spread_ * relative(cameras_[k]), x);
+    }
+  }
+
+ private:
+  // Centre of a camera in the frame of the reference camera.
+  Eigen::Vector3d relative(int camera) const {
+    return problem_.camera(reference_).pose.apply(problem_.camera(camera).pose.center());
+  }
+
+  // x += d (direction . relative centre) / d unknowns. A camera moved by (translation, rotation)
+  // moves its centre by -R^T translation.
+  void add(int camera, const Eigen::Vector3d& direction, double* x) const {
+    if (camera == reference_) return;
+    const int slot = system_.slot_of_camera(camera);
+    const CameraPose& reference = problem_.camera(reference_).pose;
+    if (slot >= 0) {
+      const Eigen::Matrix3d& R = problem_.camera(camera).pose.R;
+      Eigen::Map<Eigen::Vector3d>(x + 6 * slot) -= R * (reference.R.transpose() * direction);
+    }
+    const int reference_slot = system_.slot_of_camera(reference_);
+    if (reference_slot >= 0) {
+      Eigen::Map<Vector6d> own(x + 6 * reference_slot);
+      own.head<3>() += direction;
+      own.tail<3>() += relative(camera).cross(direction);
+    }
+  }
+
+  const BundleProblem& problem_;
+  const ReducedSystem& system_;
+  const std::int32_t* cameras_;
+  int count_;
+  int reference_ = 0;
+  double spread_ = 0.0;
+};
+
+BundlePrecision BundleAdjuster::precision(const BundleProblem& problem,
+                                          const BundleOptions& options, const std::int32_t* cameras,
+                                          int count) {
+  BundlePrecision out;
+  if (count < 3 || prepare(problem, options) != BundleStatus::kIterationCap) return out;
+  for (int i = 0; i < count; ++i) {
+    if (cameras[i] < 0 || cameras[i] >= problem.camera_count()) return out;
+  }
+  if (!system_->factorize(problem, options, kGaugeLambda)) return out;
+  measure_residuals(problem, options, cameras, count, &out);
+  const CenterMap map(problem, *system_, cameras, count);
+  if (system_->observation_count() == 0 || !(out.median_depth > 0.0) || map.degenerate())
+    return out;
+
+  const double variance = center_variance(map);
+  out.center_sigma = std::sqrt(variance) * out.residual_sigma / out.median_depth;
+  const Eigen::Matrix2d covariance = system_->intrinsics_covariance();
+  out.log_focal_sigma = std::sqrt(covariance(0, 0)) * out.residual_sigma;
+  out.k1_sigma = std::sqrt(covariance(1, 1)) * out.residual_sigma;
+  out.valid = std::isfinite(out.center_sigma) && std::isfinite(out.log_focal_sigma) &&
+              std::isfinite(out.k1_sigma);
+  return out;
+}
+
+double BundleAdjuster::center_variance(const CenterMap& map) {
+  const TileCholesky& factor = system_->factor();
+  double* x = workspace_->solution.data();
+  const int camera_size = 6 * system_->camera_slots();
+  double sum = 0.0;
+  for (int i = 0; i < map.count(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      std::fill(x, x + factor.dimension(), 0.0);
+      map.gradient(i, axis, x);
+      factor.forward(x, 0);
+      // Leaving the rows of the intrinsics out takes them as known.
+      sum += Eigen::Map<const Eigen::VectorXd>(x, camera_size).squaredNorm();
+    }
+  }
+  return sum / (map.count() - 1);
+}
+
+void BundleAdjuster::measure_residuals(const BundleProblem& problem, const BundleOptions& options,
+                                       const std::int32_t* cameras, int count,
+                                       BundlePrecision* out) {
+  const ResidualIntrinsics constants = residual_intrinsics(problem.intrinsics, options.pixel_scale);
+  std::vector<double>& norms = workspace_->norms;
+  std::vector<double>& depths = workspace_->depths;
+  norms.clear();
+  depths.clear();
+  for (int p = 0; p < problem.point_count(); ++p) {
+    if (!system_->point_active(p)) continue;
+    const BundlePoint& point = problem.point(p);
+    for (int o = point.first; o < point.first + point.count; ++o) {
+      const BundleObservation& seen = problem.observation(o);
+      const Eigen::Vector3d y = problem.camera(seen.camera).pose.apply(point.position);
+      if (!(seen.weight > 0.0) || !(y.z() > kMinDepth)) continue;
+      norms.push_back(reprojection_value(constants, y, seen.u, seen.v, seen.weight).norm());
+      if (std::find(cameras, cameras + count, seen.camera) != cameras + count) {
+        depths.push_back(y.z());
+      }
+    }
+  }
+  out->residual_sigma = std::hypot(median(&norms) / kRayleighMedian, kResidualFloor);
+  out->median_depth = median(&depths);
+}
+
+}  // namespace unisim::geometric
