@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Common part of the sources of this folder: the C table, frame range, time order, messages.
+#include "drivers/replay/frame_source.hpp"
+
+#include <cinttypes>
+#include <cstdio>
+#include <exception>
+#include <utility>
+
+namespace unisim::sequence {
+namespace {
+
+FrameSource* self(unisim_source* source) { return static_cast<FrameSource*>(source); }
+
+std::string seconds_text(int64_t ns) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6f s", static_cast<double>(ns) * 1e-9);
+  return text;
+}
+
+}  // namespace
+
+FrameSource::FrameSource(const char* format_name, GroundTruth truth, std::string note)
+    : unisim_source{}, truth_(std::move(truth)), note_(std::move(note)) {
+  format = format_name;
+  fill_table();
+}
+
+template <typename Call>
+int FrameSource::guarded(Call call) {
+  try {
+    return call();
+  } catch (const std::exception& error) {
+    return answer(UNISIM_FRAME_FAILED, std::string("reading failed: ") + error.what());
+  }
+}
+
+void FrameSource::fill_table() {
+  frame_count = [](unisim_source* source) { return self(source)->count(); };
+  next_frame = [](unisim_source* source, int decode_image, unisim_frame* frame) {
+    *frame = {};
+    return self(source)->guarded([&] { return self(source)->read(decode_image != 0, frame); });
+  };
+  decode = [](unisim_source* source, unisim_frame* frame) {
+    frame->image = {};
+    return self(source)->guarded([&] { return self(source)->decode_last(frame); });
+  };
+  ground_truth = [](unisim_source* source, const unisim_stamped_pose** poses) {
+    *poses = self(source)->truth_.poses.data();
+    return static_cast<int64_t>(self(source)->truth_.poses.size());
+  };
+  ground_truth_path = [](unisim_source* source) { return self(source)->truth_.path.c_str(); };
+  message = [](unisim_source* source) { return self(source)->message_.c_str(); };
+  destroy = [](unisim_source* source) {
+    if (source != nullptr) delete self(source);
+  };
+}
+
+int FrameSource::answer(int status, std::string text) {
+  message_ = std::move(text);
+  return status;
+}
+
+bool FrameSource::in_time_order(int64_t index, int64_t timestamp_ns, const std::string& name) {
+  if (any_frame_ && timestamp_ns <= last_timestamp_ns_) {
+    const bool same = timestamp_ns == last_timestamp_ns_;
+    answer(UNISIM_FRAME_BAD, "frame " + std::to_string(index) + ": " + name + ": time " +
+                                 seconds_text(timestamp_ns) +
+                                 (same ? " repeats" : " goes back from ") +
+                                 (same ? "" : seconds_text(last_timestamp_ns_)) + ": skipped");
+    return false;
+  }
+  any_frame_ = true;
+  last_timestamp_ns_ = timestamp_ns;
+  return true;
+}
+
+}  // namespace unisim::sequence

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Common part of the sources of this folder: the C table, frame range, time order, messages.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "drivers/replay/recording.hpp"
+#include "drivers/source.h"
+
+namespace unisim::sequence {
+
+/// Positions [from, to) of a sequence.
+struct FrameRange {
+  int64_t from;
+  int64_t to;
+};
+
+/// A unisim_source in C++: no exception leaves the functions of the table.
+class FrameSource : public unisim_source {
+ public:
+  virtual ~FrameSource() = default;
+  FrameSource(const FrameSource&) = delete;
+  FrameSource& operator=(const FrameSource&) = delete;
+
+  const std::string& note() const { return note_; }
+
+ protected:
+  FrameSource(const char* format_name, GroundTruth truth, std::string note);
+
+  virtual int64_t count() const = 0;
+  virtual int read(bool decode_image, unisim_frame* frame) = 0;
+  virtual int decode_last(unisim_frame* frame) = 0;
+
+  /// Sets message() and gives the status back.
+  int answer(int status, std::string text);
+
+  /// Checks that time grows from frame to frame. @return false with message() set if it does not
+  bool in_time_order(int64_t index, int64_t timestamp_ns, const std::string& name);
+
+ private:
+  template <typename Call>
+  int guarded(Call call);
+  void fill_table();
+
+  GroundTruth truth_;
+  std::string note_;
+  std::string message_;
+  int64_t last_timestamp_ns_ = 0;
+  bool any_frame_ = false;
+};
+
+/// Source over image files. @param range already clipped to the recording
+std::unique_ptr<FrameSource> make_image_source(const char* format, Recording recording,
+                                               FrameRange range);
+
+/// Source over a video file. @throws InputError when it cannot be played
+std::unique_ptr<FrameSource> make_video_source(const OpenRequest& request, FrameRange range);
+
+}  // namespace unisim::sequence

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Source over a list of image files.
+#include <utility>
+
+#include "drivers/replay/frame_source.hpp"
+#include "drivers/replay/image_decoder.hpp"
+
+namespace unisim::sequence {
+namespace {
+
+class ImageSource final : public FrameSource {
+ public:
+  ImageSource(const char* format_name, Recording recording, FrameRange range)
+      : FrameSource(format_name, std::move(recording.truth), std::move(recording.note)),
+        frames_(std::move(recording.frames)),
+        range_(range),
+        next_(range.from) {}
+
+ private:
+  int64_t count() const override { return range_.to - range_.from; }
+
+  int read(bool decode_image, unisim_frame* frame) override {
+    if (next_ >= range_.to) return UNISIM_FRAME_END;
+    frame->index = next_++;
+    const FrameEntry& entry = frames_[static_cast<size_t>(frame->index)];
+    frame->timestamp_ns = entry.timestamp_ns;
+    if (!in_time_order(frame->index, entry.timestamp_ns, entry.path)) return UNISIM_FRAME_BAD;
+    return decode_image ? decode_last(frame) : UNISIM_FRAME_OK;
+  }
+
+  int decode_last(unisim_frame* frame) override {
+    if (next_ == range_.from) return answer(UNISIM_FRAME_BAD, "decode() before the first frame");
+    const std::string& path = frames_[static_cast<size_t>(next_ - 1)].path;
+    std::string reason;
+    if (decoder_.decode(path, &frame->image, &reason)) return UNISIM_FRAME_OK;
+    return answer(UNISIM_FRAME_BAD,
+                  "frame " + std::to_string(next_ - 1) + ": " + path + ": " + reason + ": skipped");
+  }
+
+  std::vector<FrameEntry> frames_;
+  FrameRange range_;
+  int64_t next_;
+  ImageDecoder decoder_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> make_image_source(const char* format, Recording recording,
+                                               FrameRange range) {
+  return std::make_unique<ImageSource>(format, std::move(recording), range);
+}
+
+}  // namespace unisim::sequence

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// What a format's reader finds when it looks through a recorded sequence.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "drivers/replay/pose_file.hpp"
+#include "drivers/source.h"
+
+namespace unisim::sequence {
+
+/// One image of a sequence.
+struct FrameEntry {
+  int64_t timestamp_ns;
+  std::string path;
+};
+
+/// Ground truth and where it is from.
+struct GroundTruth {
+  std::vector<unisim_stamped_pose> poses;  ///< by growing time
+  std::string path;                        ///< "" if none
+  int64_t skipped = 0;                     ///< lines or files left out
+};
+
+/// A sequence of image files.
+struct Recording {
+  std::vector<FrameEntry> frames;
+  GroundTruth truth;
+  std::string note;  ///< what was odd about the listing, "" if nothing
+};
+
+/// What the caller asked for.
+struct OpenRequest {
+  std::string path;
+  double fps;  ///< 0: not given
+};
+
+/// A format: how it is told apart and how its files are listed.
+struct Format {
+  const char* name;
+  const char* signs;                           ///< what it is recognised by, for messages
+  bool (*recognise)(const std::string& path);  ///< may throw InputError
+  Recording (*list)(
+      const OpenRequest& request);  ///< throws InputError; NULL: not made of image files
+};
+
+extern const Format kTum, kSevenScenes, kEuroc, kKitti, kReplica, kImageList, kVideo;
+
+/// Time of frame `number` at a constant rate.
+int64_t time_at_rate(int64_t number, double fps);
+
+/// Ground truth from a pose file; an unreadable one leaves it empty and says so in the note.
+void read_ground_truth(const std::string& path, PoseFormat format, Recording* recording);
+
+/// Sorts the poses by time and notes how many lines were left out.
+void finish_ground_truth(Recording* recording);
+
+/// Appends a remark to the note.
+void add_note(Recording* recording, const std::string& remark);
+
+}  // namespace unisim::sequence

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Replica as rendered for iMAP and NICE-SLAM: results/frame*.jpg, traj.txt with a 4x4 matrix per
+// line.
+#include "drivers/replay/folder.hpp"
+#include "drivers/replay/recording.hpp"
+#include "drivers/replay/text_file.hpp"
+
+namespace unisim::sequence {
+namespace {
+
+constexpr double kUsualFps = 30.0;
+
+std::vector<std::string> list_frames(const std::string& folder) {
+  std::vector<std::string> frames;
+  for (const std::string& name : list_images(folder)) {
+    if (name.rfind("frame", 0) == 0) frames.push_back(name);
+  }
+  return frames;
+}
+
+bool recognise(const std::string& path) { return !list_frames(join(path, "results")).empty(); }
+
+// Line k is the pose of frame k, camera to world.
+void add_ground_truth(const std::string& path, double fps, Recording* recording) {
+  const std::vector<TextLine> lines = read_lines(path);
+  for (size_t k = 0; k < lines.size(); ++k) {
+    const auto fields = split_fields(lines[k].text);
+    double rows[16];
+    bool good = fields.size() == 16;
+    for (size_t i = 0; good && i < 16; ++i) good = parse_number(fields[i], &rows[i]);
+    FilePose pose{};
+    if (good && pose_from_matrix(rows, &pose)) {
+      pose.timestamp_ns = time_at_rate(static_cast<int64_t>(k), fps);
+      recording->truth.poses.push_back(to_stamped_pose(pose));
+    } else {
+      ++recording->truth.skipped;
+    }
+  }
+  recording->truth.path = path;
+  finish_ground_truth(recording);
+}
+
+Recording list(const OpenRequest& request) {
+  const std::string folder = join(request.path, "results");
+  const double fps = request.fps > 0 ? request.fps : kUsualFps;
+  Recording recording;
+  int64_t position = 0;
+  for (const std::string& name : list_frames(folder)) {
+    recording.frames.push_back({time_at_rate(position++, fps), join(folder, name)});
+  }
+  if (recording.frames.empty()) {
+    throw InputError(request.path + ": no results/frame*.jpg: give the folder of a Replica scene");
+  }
+  const std::string truth_path = join(request.path, "traj.txt");
+  if (is_file(truth_path)) add_ground_truth(truth_path, fps, &recording);
+  return recording;
+}
+
+}  // namespace
+
+const Format kReplica = {"replica", "results/frame*.jpg", recognise, list};
+
+}  // namespace unisim::sequence

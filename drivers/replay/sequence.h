@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+/** @file sequence.h  Opens a recorded sequence of images as a source of frames.
+ *
+ *  | format   | what it is |
+ *  |----------|------------------------------------------------------------------------------------|
+ *  | tum      | folder with rgb.txt or associations.txt; groundtruth.txt | | 7scenes  | folder with
+ * frame-NNNNNN.color.png or .jpg, also one level down in seq-NN; *.pose.txt | | euroc    | folder
+ * with mav0/cam0/data.csv and data/; state_groundtruth_estimate0/data.csv      | | kitti    |
+ * odometry root with one sequence, or the folder sequences/NN; times.txt; poses/NN.txt | | replica
+ * | folder with results/frame*.jpg and traj.txt                                        | | images
+ * | folder of images, or a pattern with * and ?; in natural order                      | | video |
+ * any file OpenCV can play                                                           |
+ */
+#ifndef UNISIM_DRIVERS_REPLAY_SEQUENCE_H
+#define UNISIM_DRIVERS_REPLAY_SEQUENCE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "drivers/source.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** How to open a sequence. All zero but struct_size is a good default. */
+typedef struct unisim_sequence_options {
+  uint32_t struct_size;
+  int32_t reserved;   /**< 0 */
+  const char* format; /**< a format of the table above; NULL or "auto": recognised by content */
+  int64_t from;       /**< first frame, by position in the sequence */
+  int64_t to;         /**< one past the last frame; <= 0: to the end */
+  double fps;         /**< frames per second where the format carries no times; 0: its usual rate
+                           (30; KITTI 10) */
+} unisim_sequence_options;
+
+/** Open a recorded sequence. The list of files and the ground truth are read here, once; images are
+ *  decoded one by one into a buffer that is used again.
+ *
+ *  A frame is UNISIM_FRAME_BAD when its file is missing, empty, truncated or not an image, when its
+ * size differs from that of the first good frame, or when its time is not after that of the frame
+ * before.
+ *
+ *  @param[in]  path         folder, pattern or file
+ *  @param[in]  options      NULL: defaults
+ *  @param[out] message      on failure one line: what, where, what to do; may be NULL
+ *  @param      message_size bytes of message
+ *  @return the source, to be freed with its destroy(); NULL on failure */
+unisim_source* unisim_sequence_open(const char* path, const unisim_sequence_options* options,
+                                    char* message, size_t message_size);
+
+/** What was noticed at opening and does not stop a run, such as lines left out of the ground truth.
+ *  @param source one that unisim_sequence_open() gave
+ *  @return one line owned by the source, "" if nothing */
+const char* unisim_sequence_note(const unisim_source* source);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
