@@ -16,16 +16,18 @@
 extern "C" {
 #endif
 
-/** A predictor that hands every call on to another one and stores the answers. Each record is in the
- *  file when the call that made it returns; destroy() closes the file. When the file cannot be
- *  written any more (full disk) recording stops, what is written stays readable, the run goes on and
- *  unisim_recorder_problem() says so.
- *  @param inner         owned from now on, destroyed with the recorder; on failure still the caller's
+/** A predictor that hands every call on to another one and stores the answers. Each record is in
+ * the file when the call that made it returns; destroy() closes the file. When the file cannot be
+ *  written any more (full disk) recording stops, what is written stays readable, the run goes on
+ * and unisim_recorder_problem() says so.
+ *  @param inner         owned from now on, destroyed with the recorder; on failure still the
+ * caller's
  *  @param path          file to make; one that exists is replaced
  *  @param sequence_name stored in the file; may be NULL
  *  @param message       one line on failure: what, where, what to do; may be NULL
  *  @param message_size  bytes of message
- *  @return the recorder, NULL when the file cannot be made; its name and needs_images are inner's */
+ *  @return the recorder, NULL when the file cannot be made; its name and needs_images are inner's
+ */
 unisim_predictor* unisim_recorder_create(unisim_predictor* inner, const char* path,
                                          const char* sequence_name, char* message,
                                          size_t message_size);
@@ -36,12 +38,12 @@ unisim_predictor* unisim_recorder_create(unisim_predictor* inner, const char* pa
 const char* unisim_recorder_problem(const unisim_predictor* recorder);
 
 /** A predictor that gives the predictions of a file, with no images and no model. Where the file
- *  names its keyframes, observe() sets keyframe_advice to 1 or -1; a pair or window is PENDING until
- *  the moment it was answered in the recording and REJECTED when the file does not hold it.
+ *  names its keyframes, observe() sets keyframe_advice to 1 or -1; a pair or window is PENDING
+ * until the moment it was answered in the recording and REJECTED when the file does not hold it.
  *  Memory: a few words per record and one record.
  *  @param path         file written by a recorder or by tools/export/unisim_record.py
- *  @param message      one line: the reason on failure; on success a note about a recording that was
- *                      cut off, else ""; may be NULL
+ *  @param message      one line: the reason on failure; on success a note about a recording that
+ * was cut off, else ""; may be NULL
  *  @param message_size bytes of message
  *  @return the predictor, NULL when the file is unreadable, damaged or of a newer version */
 unisim_predictor* unisim_recorded_open(const char* path, char* message, size_t message_size);

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// Predictions to and from the data part of a record.
+#include "drivers/recorded/prediction_codec.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace unisim::recorded {
+namespace {
+
+bool has_pixels(const unisim_depth_map& map) {
+  return map.depth != nullptr && map.width > 0 && map.height > 0;
+}
+
+std::size_t pixel_count(std::int32_t width, std::int32_t height) {
+  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+}
+
+void encode_depth(const unisim_depth_map& map, RecordBytes* out) {
+  DepthHead head{};
+  if (!has_pixels(map)) {
+    out->put(head);
+    return;
+  }
+  const std::size_t count = pixel_count(map.width, map.height);
+  head.width = map.width;
+  head.height = map.height;
+  head.has_confidence = map.confidence != nullptr ? 1 : 0;
+  out->put(head);
+  out->put_array(map.depth, count);
+  if (map.confidence != nullptr) out->put_array(map.confidence, count);
+  out->pad();
+}
+
+bool finite(const double* values, std::size_t count) {
+  return std::all_of(values, values + count, [](double value) { return std::isfinite(value); });
+}
+
+bool finite(const unisim_sim3& pose) {
+  return finite(pose.q, 4) && finite(pose.t, 3) && std::isfinite(pose.s);
+}
+
+/// Takes arrays one after the other out of aligned bytes.
+class Cursor {
+ public:
+  Cursor(const unsigned char* data, std::size_t size) : data_(data), size_(size) {}
+
+  /// `count` values, padded to 8 bytes; NULL when there are not as many.
+  template <class T>
+  const T* take(std::size_t count) {
+    const std::size_t left = size_ - at_;
+    if (count > left / sizeof(T)) return nullptr;
+    const auto* values = reinterpret_cast<const T*>(data_ + at_);
+    at_ += std::min((count * sizeof(T) + 7) / 8 * 8, left);
+    return values;
+  }
+
+ private:
+  const unsigned char* data_;
+  std::size_t size_;
+  std::size_t at_ = 0;
+};
+
+Decoded fail(Decoded how, const char* what, std::string* problem) {
+  *problem = what;
+  return how;
+}
+
+Decoded decode_depth(Cursor* cursor, unisim_depth_map* out, std::string* problem) {
+  *out = unisim_depth_map{};
+  const DepthHead* head = cursor->take<DepthHead>(1);
+  if (head == nullptr) return fail(Decoded::kMalformed, "depth map missing", problem);
+  if (head->width == 0 && head->height == 0) return Decoded::kOk;
+  constexpr std::int32_t kLargest = 65536;
+  const bool possible = head->width > 0 && head->width <= kLargest && head->height > 0 &&
+                        head->height <= kLargest &&
+                        (head->has_confidence == 0 || head->has_confidence == 1);
+  if (!possible) return fail(Decoded::kMalformed, "depth map of impossible size", problem);
+  const std::size_t count = pixel_count(head->width, head->height);
+  const float* pixels = cursor->take<float>(head->has_confidence != 0 ? 2 * count : count);
+  if (pixels == nullptr) {
+    return fail(Decoded::kMalformed, "depth map larger than its record", problem);
+  }
+  out->width = head->width;
+  out->height = head->height;
+  out->depth = pixels;
+  if (head->has_confidence == 0) return Decoded::kOk;
+  out->confidence = pixels + count;
+  const bool numbers = std::all_of(out->confidence, out->confidence + count,
+                                   [](float value) { return std::isfinite(value); });
+  return numbers ? Decoded::kOk : fail(Decoded::kNotFinite, "confidence is not a number", problem);
+}
+
+/// One map per view; the worst answer counts.
+Decoded decode_depths(Cursor* cursor, std::size_t count, DecodedArrays* arrays,
+                      std::string* problem) {
+  arrays->depth.resize(count);
+  Decoded worst = Decoded::kOk;
+  for (unisim_depth_map& map : arrays->depth) {
+    const Decoded decoded = decode_depth(cursor, &map, problem);
+    if (decoded == Decoded::kMalformed) return decoded;
+    if (decoded != Decoded::kOk) worst = decoded;
+  }
+  return worst;
+}
+
+bool possible_count(std::int32_t count) { return count >= 1 && count <= UNISIM_MAX_VIEWS; }
+
+bool finite(const unisim_sim3* poses, std::size_t count) {
+  return std::all_of(poses, poses + count, [](const unisim_sim3& pose) { return finite(pose); });
+}
+
+}  // namespace
+
+void encode_pair(const unisim_pair_prediction& pair, RecordBytes* out) {
+  out->put(PairData{pair.focal_px, pair.center_sigma, pair.T_i_j});
+  encode_depth(pair.depth_i, out);
+  encode_depth(pair.depth_j, out);
+}
+
+void encode_window(const unisim_window_prediction& window, RecordBytes* out) {
+  const auto count = static_cast<std::size_t>(window.count);
+  out->put(WindowData{window.focal_px, window.center_sigma, window.token, window.count, 0});
+  out->put_array(window.keyframe_ids, count);
+  out->pad();
+  out->put_array(window.T_window_kf, count);
+  for (std::size_t view = 0; view < count; ++view) encode_depth(window.depth[view], out);
+}
+
+void encode_revision(const unisim_window_revision& revision, RecordBytes* out) {
+  const auto count = static_cast<std::size_t>(revision.count);
+  out->put(RevisionData{revision.center_sigma, revision.count, 0});
+  out->put_array(revision.T_window_kf, count);
+  out->put_array(revision.log_depth_ratio, count);
+}
+
+Decoded decode_pair(std::size_t size, DecodedArrays* arrays, unisim_pair_prediction* out,
+                    std::string* problem) {
+  Cursor cursor(arrays->data.data(), size);
+  const PairData* pair = cursor.take<PairData>(1);
+  if (pair == nullptr) return fail(Decoded::kMalformed, "pair too short", problem);
+  const Decoded depths = decode_depths(&cursor, 2, arrays, problem);
+  if (depths != Decoded::kOk) return depths;
+  const double numbers[] = {pair->focal_px, pair->center_sigma};
+  if (!finite(numbers, 2) || !finite(pair->T_i_j)) {
+    return fail(Decoded::kNotFinite, "pose, focal length or sigma is not a number", problem);
+  }
+  *out = {pair->T_i_j, arrays->depth[0], arrays->depth[1], pair->focal_px, pair->center_sigma};
+  return Decoded::kOk;
+}
+
+Decoded decode_window(std::size_t size, DecodedArrays* arrays, unisim_window_prediction* out,
+                      std::string* problem) {
+  Cursor cursor(arrays->data.data(), size);
+  const WindowData* window = cursor.take<WindowData>(1);
+  if (window == nullptr || !possible_count(window->count)) {
+    return fail(Decoded::kMalformed, "window of impossible size", problem);
+  }
+  const auto count = static_cast<std::size_t>(window->count);
+  const auto* ids = cursor.take<std::int32_t>(count);
+  const auto* poses = cursor.take<unisim_sim3>(count);
+  if (poses == nullptr) return fail(Decoded::kMalformed, "window too short", problem);
+  const Decoded depths = decode_depths(&cursor, count, arrays, problem);
+  if (depths != Decoded::kOk) return depths;
+  const double numbers[] = {window->focal_px, window->center_sigma};
+  if (!finite(numbers, 2) || !finite(poses, count)) {
+    return fail(Decoded::kNotFinite, "pose, focal length or sigma is not a number", problem);
+  }
+  *out = {window->count,        ids,          poses, arrays->depth.data(), window->focal_px,
+          window->center_sigma, window->token};
+  return Decoded::kOk;
+}
+
+Decoded decode_revision(std::size_t size, DecodedArrays* arrays, unisim_window_revision* out,
+                        std::string* problem) {
+  Cursor cursor(arrays->data.data(), size);
+  const RevisionData* revision = cursor.take<RevisionData>(1);
+  if (revision == nullptr || !possible_count(revision->count)) {
+    return fail(Decoded::kMalformed, "revision of impossible size", problem);
+  }
+  const auto count = static_cast<std::size_t>(revision->count);
+  const auto* poses = cursor.take<unisim_sim3>(count);
+  const auto* ratios = cursor.take<double>(count);
+  if (poses == nullptr || ratios == nullptr) {
+    return fail(Decoded::kMalformed, "revision too short", problem);
+  }
+  if (!std::isfinite(revision->center_sigma) || !finite(poses, count) || !finite(ratios, count)) {
+    return fail(Decoded::kNotFinite, "pose, ratio or sigma is not a number", problem);
+  }
+  out->count = revision->count;
+  out->T_window_kf = poses;
+  out->log_depth_ratio = ratios;
+  out->center_sigma = revision->center_sigma;
+  return Decoded::kOk;
+}
+
+Decoded decode_pose(std::size_t size, const AlignedBytes& data, unisim_sim3* out) {
+  if (size < sizeof *out) return Decoded::kMalformed;
+  std::memcpy(out, data.data(), sizeof *out);
+  return finite(*out) ? Decoded::kOk : Decoded::kNotFinite;
+}
+
+}  // namespace unisim::recorded

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+// A predictor that gives the predictions of a file.
+#include "drivers/recorded/recorded.h"
+
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <string>
+
+#include "drivers/recorded/prediction_codec.hpp"
+#include "drivers/recorded/record_format.hpp"
+#include "drivers/recorded/record_index.hpp"
+#include "drivers/recorded/record_reader.hpp"
+
+namespace unisim::recorded {
+namespace {
+
+struct Recorded : unisim_predictor {
+  std::string path;
+  RecordReader reader;
+  RecordIndex index;
+  Moment now;
+  std::size_t next_revision_at = 0;
+  DecodedArrays pair;
+  DecodedArrays window;
+  DecodedArrays revision;
+  AlignedBytes scratch;
+  std::string text;
+};
+
+Recorded& self(unisim_predictor* predictor) { return *static_cast<Recorded*>(predictor); }
+
+int reject(Recorded& recorded, const std::string& why) {
+  recorded.text = why;
+  return UNISIM_PREDICTION_REJECTED;
+}
+
+int fail(Recorded& recorded, const std::string& why) {
+  recorded.text = why;
+  return UNISIM_PREDICTION_FAILED;
+}
+
+/// Keeps C++ exceptions (memory) on this side of the table.
+template <class Function>
+int guarded(Recorded& recorded, Function function) {
+  try {
+    return function();
+  } catch (const std::exception&) {
+    return fail(recorded, "not enough memory to read the recording");
+  }
+}
+
+bool has_come(const Moment& moment, const Moment& now) {
+  return moment.keyframe <= now.keyframe && moment.frame <= now.frame &&
+         moment.finished <= now.finished;
+}
+
+/// The first answer not given yet whose moment has come, else the one given last.
+RecordedAnswer* due_answer(RecordedAnswers* answers, const Moment& now) {
+  RecordedAnswer* last_given = nullptr;
+  for (RecordedAnswer& answer : *answers) {
+    if (answer.status == UNISIM_PREDICTION_PENDING) continue;
+    if (answer.given) {
+      last_given = &answer;
+    } else if (has_come(answer.moment, now)) {
+      return &answer;
+    } else {
+      break;
+    }
+  }
+  return last_given;
+}
+
+/// Reason stored with a rejected answer.
+int repeat_rejection(Recorded& recorded, const RecordRef& record) {
+  if (!recorded.reader.read_data(record, &recorded.scratch)) {
+    return fail(recorded, recorded.reader.problem());
+  }
+  const auto* text = reinterpret_cast<const char*>(recorded.scratch.data());
+  std::string why(text, static_cast<std::size_t>(record.head.data_bytes));
+  why.resize(why.find('\0') != std::string::npos ? why.find('\0') : why.size());
+  return reject(recorded, why.empty() ? "rejected in the recording" : why);
+}
+
+std::string absent(const Recorded& recorded, const std::string& what) {
+  const std::string text = what + " is not in " + recorded.path;
+  if (recorded.index.complete()) {
+    return text + ": recorded with other options (keyframes, --window, --overlap, --stride)";
+  }
+  return text + ": that recording was cut off after keyframe " +
+         std::to_string(static_cast<std::int64_t>(recorded.index.keyframes().size()) - 1) +
+         " or made with other options";
+}
+
+/// Answers a question; `decode` reads the data of an OK answer.
+template <class Decode>
+int answer(Recorded& recorded, const Question& question, const std::string& what,
+           DecodedArrays* arrays, Decode decode) {
+  RecordedAnswers* answers = recorded.index.find_answers(question);
+  if (answers == nullptr) return reject(recorded, absent(recorded, what));
+  RecordedAnswer* due = due_answer(answers, recorded.now);
+  if (due == nullptr) return UNISIM_PREDICTION_PENDING;
+  due->given = true;
+  if (due->status == UNISIM_PREDICTION_REJECTED) return repeat_rejection(recorded, due->record);
+  if (!recorded.reader.read_data(due->record, &arrays->data)) {
+    return fail(recorded, recorded.reader.problem());
+  }
+  std::string problem;
+  const Decoded decoded = decode(static_cast<std::size_t>(due->record.head.data_bytes), &problem);
+  if (decoded == Decoded::kOk) return UNISIM_PREDICTION_OK;
+  recorded.reader.damaged(due->record.offset, what + ": " + problem);
+  return decoded == Decoded::kNotFinite ? reject(recorded, recorded.reader.problem())
+                                        : fail(recorded, recorded.reader.problem());
+}
+
+/// A frame of the run must be the frame of the recording.
+bool same_time(const RecordedFrame& recorded, const unisim_frame& frame) {
+  return recorded.timestamp_ns == kUnknownTime || recorded.timestamp_ns == frame.timestamp_ns;
+}
+
+std::string other_time(const Recorded& recorded, const unisim_frame& frame, std::int64_t time_ns) {
+  return "frame " + std::to_string(frame.index) + " has time " +
+         std::to_string(frame.timestamp_ns) + " ns, in " + recorded.path + " " +
+         std::to_string(time_ns) + " ns: recorded from another sequence";
+}
+
+int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motion* motion) {
+  Recorded& recorded = self(predictor);
+  return guarded(recorded, [&] {
+    const RecordIndex& index = recorded.index;
+    *motion = {-1.0, -1.0, 0};
+    recorded.now.frame = frame->index;
+    const RecordedFrame* keyframe = index.find_keyframe(frame->index);
+    const RecordedFrame* seen = index.find_frame(frame->index);
+    for (const RecordedFrame* known : {keyframe, seen}) {
+      if (known != nullptr && !same_time(*known, *frame)) {
+        return fail(recorded, other_time(recorded, *frame, known->timestamp_ns));
+      }
+    }
+    if (!index.keyframes().empty()) motion->keyframe_advice = keyframe != nullptr ? 1 : -1;
+    if (seen != nullptr) {
+      motion->flow = seen->flow;
+      motion->tracked = seen->tracked;
+      if (seen->status != UNISIM_PREDICTION_OK) return repeat_rejection(recorded, seen->record);
+    } else if (!index.frames().empty()) {
+      return reject(recorded, "not in " + recorded.path + ", which has frames " +
+                                  std::to_string(index.frames().front().index) + " to " +
+                                  std::to_string(index.frames().back().index) +
+                                  " or fewer: use the same --from and --to");
+    }
+    return UNISIM_PREDICTION_OK;
+  });
+}
+
+int keyframe(unisim_predictor* predictor, const unisim_frame* frame, int32_t id) {
+  Recorded& recorded = self(predictor);
+  return guarded(recorded, [&] {
+    recorded.now.keyframe = id;
+    const auto& keyframes = recorded.index.keyframes();
+    if (keyframes.empty()) return UNISIM_PREDICTION_OK;
+    const auto at = static_cast<std::size_t>(id);
+    if (at >= keyframes.size()) {
+      return fail(recorded, "keyframe " + std::to_string(id) + " is not in " + recorded.path +
+                                ", which has " + std::to_string(keyframes.size()) +
+                                ": use the same --stride, --from and --to");
+    }
+    if (keyframes[at].index == frame->index) return UNISIM_PREDICTION_OK;
+    return fail(recorded, "keyframe " + std::to_string(id) + " is frame " +
+                              std::to_string(frame->index) + ", in " + recorded.path + " frame " +
+                              std::to_string(keyframes[at].index) +
+                              ": use the same --stride and --from");
+  });
+}
+
+int two_view(unisim_predictor* predictor, int32_t i, int32_t j, unisim_pair_prediction* out) {
+  Recorded& recorded = self(predictor);
+  return guarded(recorded, [&] {
+    const std::string what = "pair " + std::to_string(i) + "," + std::to_string(j);
+    return answer(recorded, pair_question(i, j), what, &recorded.pair,
+                  [&](std::size_t size, std::string* problem) {
+                    return decode_pair(size, &recorded.pair, out, problem);
+                  });
+  });
+}
+
+int multi_view(unisim_predictor* predictor, const int32_t* ids, int32_t count,
+               unisim_window_prediction* out) {
+  Recorded& recorded = self(predictor);
+  return guarded(recorded, [&] {
+    const std::string what = "window of " + std::to_string(count) + " keyframes " +
+                             std::to_string(ids[0]) + ".." + std::to_string(ids[count - 1]);
+    return answer(recorded, window_question(ids, count), what, &recorded.window,
+                  [&](std::size_t size, std::string* problem) {
+                    return decode_window(size, &recorded.window, out, problem);
+                  });
+  });
+}
+
+int next_revision(unisim_predictor* predictor, unisim_window_revision* out) {
+  Recorded& recorded = self(predictor);
+  return guarded(recorded, [&] {
+    const auto& revisions = recorded.index.revisions();
+    if (recorded.next_revision_at == revisions.size()) return UNISIM_PREDICTION_PENDING;
+    const RecordedRevision& next = revisions[recorded.next_revision_at];
+    if (!has_come(next.moment, recorded.now)) return UNISIM_PREDICTION_PENDING;
+    ++recorded.next_revision_at;
+    if (!recorded.reader.read_data(next.record, &recorded.revision.data)) {
+      return fail(recorded, recorded.reader.problem());
+    }
+    out->token = next.token;
+    std::string problem;
+    const auto size = static_cast<std::size_t>(next.record.head.data_bytes);
+    const Decoded decoded = decode_revision(size, &recorded.revision, out, &problem);
+    if (decoded == Decoded::kOk) return UNISIM_PREDICTION_OK;
+    recorded.reader.damaged(next.record.offset, "revision: " + problem);
+    return decoded == Decoded::kNotFinite ? reject(recorded, recorded.reader.problem())
+                                          : fail(recorded, recorded.reader.problem());
+  });
+}
+
+int frame_pose(unisim_predictor* predictor, unisim_frame_pose* out) {
+  Recorded& recorded = self(predictor);
+  return guarded(recorded, [&] {
+    const std::int64_t frame = recorded.now.frame;
+    RecordedAnswers* answers = recorded.index.find_answers(frame_pose_question(frame));
+    RecordedAnswer* due = answers != nullptr ? due_answer(answers, recorded.now) : nullptr;
+    if (due == nullptr) return UNISIM_PREDICTION_PENDING;
+    due->given = true;
+    if (due->status == UNISIM_PREDICTION_REJECTED) return repeat_rejection(recorded, due->record);
+    if (!recorded.reader.read_data(due->record, &recorded.scratch)) {
+      return fail(recorded, recorded.reader.problem());
+    }
+    out->keyframe_id = due->keyframe_id;
+    if (decode_pose(static_cast<std::size_t>(due->record.head.data_bytes), recorded.scratch,
+                    &out->T_kf_frame) == Decoded::kOk) {
+      return UNISIM_PREDICTION_OK;
+    }
+    recorded.reader.damaged(due->record.offset,
+                            "pose of frame " + std::to_string(frame) + " is not a number");
+    return reject(recorded, recorded.reader.problem());
+  });
+}
+
+int finish(unisim_predictor* predictor) {
+  self(predictor).now.finished = 1;
+  return UNISIM_PREDICTION_OK;
+}
+
+void info(unisim_predictor* predictor, unisim_predictor_info* out) {
+  Recorded& recorded = self(predictor);
+  *out = recorded.index.info();
+  std::size_t bytes = sizeof recorded + recorded.index.bytes() + recorded.scratch.capacity_bytes();
+  for (const DecodedArrays* arrays : {&recorded.pair, &recorded.window, &recorded.revision}) {
+    bytes += arrays->data.capacity_bytes();
+  }
+  out->state_bytes = static_cast<std::int64_t>(bytes);
+}
+
+const char* message(unisim_predictor* predictor) { return self(predictor).text.c_str(); }
+
+void destroy(unisim_predictor* predictor) {
+  if (predictor != nullptr) delete &self(predictor);
+}
+
+void fill_table(Recorded* recorded) {
+  recorded->name = "recorded";
+  recorded->needs_images = 0;
+  recorded->observe = observe;
+  recorded->keyframe = keyframe;
+  recorded->two_view = two_view;
+  recorded->multi_view = multi_view;
+  recorded->next_revision = next_revision;
+  recorded->frame_pose = recorded->index.has_frame_poses() ? frame_pose : nullptr;
+  recorded->finish = finish;
+  recorded->info = info;
+  recorded->message = message;
+  recorded->destroy = destroy;
+}
+
+void say(char* message, std::size_t size, const std::string& text) {
+  if (message != nullptr && size > 0) std::snprintf(message, size, "%s", text.c_str());
+}
+
+}  // namespace
+}  // namespace unisim::recorded
+
+unisim_predictor* unisim_recorded_open(const char* path, char* message, size_t message_size) {
+  using namespace unisim::recorded;
+  say(message, message_size, "");
+  try {
+    auto recorded = std::make_unique<Recorded>();
+    recorded->path = path;
+    if (!recorded->reader.open(path) || !recorded->index.build(&recorded->reader)) {
+      say(message, message_size, recorded->reader.problem());
+      return nullptr;
+    }
+    if (!recorded->index.complete()) {
+      say(message, message_size,
+          recorded->path + ": this recording was cut off after " +
+              std::to_string(recorded->index.record_count()) + " records (" +
+              std::to_string(recorded->index.keyframes().size()) + " keyframes)");
+    }
+    fill_table(recorded.get());
+    return recorded.release();
+  } catch (const std::exception&) {
+    say(message, message_size, "not enough memory to read the recording");
+    return nullptr;
+  }
+}
