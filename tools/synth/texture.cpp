@@ -11,8 +11,11 @@ uint8_t to_byte(float value) {
   return static_cast<uint8_t>(std::clamp(value, 0.0f, 255.0f) + 0.5f);
 }
 
-Color to_color(const std::array<uint8_t, 4>& texel) {
-  return {static_cast<float>(texel[0]), static_cast<float>(texel[1]), static_cast<float>(texel[2])};
+float length(float x, float y) { return std::sqrt(x * x + y * y); }
+
+/// Four floats are one vector register.
+Eigen::Vector4f to_float(const std::array<uint8_t, 4>& texel) {
+  return Eigen::Map<const Eigen::Matrix<uint8_t, 4, 1>>(texel.data()).cast<float>();
 }
 
 }  // namespace
@@ -42,15 +45,15 @@ Texture::Level Texture::halve(const Level& level) {
       const float s1 = (static_cast<float>(column) + 0.75f) / static_cast<float>(half.columns);
       const float t0 = (static_cast<float>(row) + 0.25f) / static_cast<float>(half.rows);
       const float t1 = (static_cast<float>(row) + 0.75f) / static_cast<float>(half.rows);
-      const Color mean = 0.25f * (bilinear(level, s0, t0) + bilinear(level, s1, t0) +
-                                  bilinear(level, s0, t1) + bilinear(level, s1, t1));
+      const Eigen::Vector4f mean = 0.25f * (bilinear(level, s0, t0) + bilinear(level, s1, t0) +
+                                            bilinear(level, s0, t1) + bilinear(level, s1, t1));
       half.texels.push_back({to_byte(mean[0]), to_byte(mean[1]), to_byte(mean[2]), 0});
     }
   }
   return half;
 }
 
-Color Texture::bilinear(const Level& level, float s, float t) {
+Eigen::Vector4f Texture::bilinear(const Level& level, float s, float t) {
   const float x = std::clamp(s * static_cast<float>(level.columns) - 0.5f, 0.0f,
                              static_cast<float>(level.columns - 1));
   const float y = std::clamp(t * static_cast<float>(level.rows) - 0.5f, 0.0f,
@@ -62,16 +65,16 @@ Color Texture::bilinear(const Level& level, float s, float t) {
   const int right = column + 1 < level.columns ? 1 : 0;
   const int below = row + 1 < level.rows ? level.columns : 0;
   const auto* texel = level.texels.data() + static_cast<ptrdiff_t>(row) * level.columns + column;
-  return (1.0f - b) * ((1.0f - a) * to_color(texel[0]) + a * to_color(texel[right])) +
-         b * ((1.0f - a) * to_color(texel[below]) + a * to_color(texel[below + right]));
+  return (1.0f - b) * ((1.0f - a) * to_float(texel[0]) + a * to_float(texel[right])) +
+         b * ((1.0f - a) * to_float(texel[below]) + a * to_float(texel[below + right]));
 }
 
-Color Texture::trilinear(float level, float s, float t) const {
+Eigen::Vector4f Texture::trilinear(float level, float s, float t) const {
   const float last = static_cast<float>(levels_.size() - 1);
   const float clamped = std::clamp(level, 0.0f, last);
   const auto finer = static_cast<size_t>(clamped);
   const float weight = clamped - static_cast<float>(finer);
-  const Color fine = bilinear(levels_[finer], s, t);
+  const Eigen::Vector4f fine = bilinear(levels_[finer], s, t);
   if (weight <= 0.0f) {
     return fine;
   }
@@ -81,8 +84,8 @@ Color Texture::trilinear(float level, float s, float t) const {
 Color Texture::sample(const Footprint& footprint) const {
   const float columns = static_cast<float>(levels_[0].columns);
   const float rows = static_cast<float>(levels_[0].rows);
-  const float across = std::hypot(footprint.ds_du * columns, footprint.dt_du * rows);
-  const float down = std::hypot(footprint.ds_dv * columns, footprint.dt_dv * rows);
+  const float across = length(footprint.ds_du * columns, footprint.dt_du * rows);
+  const float down = length(footprint.ds_dv * columns, footprint.dt_dv * rows);
   const float longer = std::max(across, down);
   const float shorter = std::max(std::min(across, down), 1e-6f);
   // Probes as far apart as the footprint is wide; below one texel nothing is gained by more.
@@ -91,12 +94,12 @@ Color Texture::sample(const Footprint& footprint) const {
   const float level = std::log2(std::max(longer / static_cast<float>(probes), shorter));
   const float ds = across > down ? footprint.ds_du : footprint.ds_dv;
   const float dt = across > down ? footprint.dt_du : footprint.dt_dv;
-  Color sum = Color::Zero();
+  Eigen::Vector4f sum = Eigen::Vector4f::Zero();
   for (int probe = 0; probe < probes; ++probe) {
     const float offset = (static_cast<float>(probe) + 0.5f) / static_cast<float>(probes) - 0.5f;
     sum += trilinear(level, footprint.s + offset * ds, footprint.t + offset * dt);
   }
-  return sum / static_cast<float>(probes);
+  return sum.head<3>() / static_cast<float>(probes);
 }
 
 }  // namespace unisim::synth

@@ -36,8 +36,8 @@ class Texture {
   };
 
   static Level halve(const Level& level);
-  static Color bilinear(const Level& level, float s, float t);
-  Color trilinear(float level, float s, float t) const;
+  static Eigen::Vector4f bilinear(const Level& level, float s, float t);
+  Eigen::Vector4f trilinear(float level, float s, float t) const;
 
   std::vector<Level> levels_;
 };
