@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a bundle adjustment says about the precision of camera centres and intrinsics.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

@@ -3,6 +3,7 @@
 #include "drivers/geometric/bundle/triangulation.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
