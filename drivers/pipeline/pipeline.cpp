@@ -33,7 +33,7 @@ class Pipeline::Impl {
 
   ~Impl() { unisim_session_destroy(session_); }
 
-  std::string prepare();
+  Preparation prepare();
   const Result& run();
   unisim_session* session() const { return session_; }
 
@@ -66,19 +66,24 @@ class Pipeline::Impl {
   int32_t next_live_ = 0;  // first keyframe whose live pose is not given out yet
 };
 
-std::string Pipeline::Impl::prepare() {
+Preparation Pipeline::Impl::prepare() {
   size_t size = 0;
   unisim_status status = unisim_arena_size(&config_, &size);
   if (status != UNISIM_OK) {
-    return std::string("session configuration: ") + unisim_status_string(status);
+    return {Preparation::Answer::kBadConfiguration,
+            std::string("session configuration: ") + unisim_status_string(status)};
   }
   arena_.reset(new (std::nothrow) char[size]);
   if (arena_ == nullptr) {
-    return "session: no memory for its " + std::to_string(size >> 20) +
-           " MiB; lower session.max_keyframes";
+    return {Preparation::Answer::kNoMemory, "session: no memory for its " +
+                                                std::to_string(size >> 20) +
+                                                " MiB; lower session.max_keyframes"};
   }
   status = unisim_session_create(&session_, &config_, arena_.get(), size);
-  if (status != UNISIM_OK) return std::string("session: ") + unisim_status_string(status);
+  if (status != UNISIM_OK) {
+    return {Preparation::Answer::kBadConfiguration,
+            std::string("session: ") + unisim_status_string(status)};
+  }
   // Windows start w - overlap keyframes apart; one shorter window may follow.
   const int32_t step = config_.window_size - config_.window_overlap;
   const auto windows = static_cast<size_t>(config_.max_keyframes / step + 2);
@@ -90,9 +95,9 @@ std::string Pipeline::Impl::prepare() {
 
 const Result& Pipeline::Impl::run() {
   if (session_ == nullptr) {
-    const std::string problem = prepare();
-    if (!problem.empty()) {
-      end(Outcome::kSessionFailed, problem);
+    const Preparation preparation = prepare();
+    if (preparation.answer != Preparation::Answer::kReady) {
+      end(Outcome::kSessionFailed, preparation.message);
       return result_;
     }
   }
@@ -257,7 +262,7 @@ Pipeline::Pipeline(const Options& options, unisim_source* source, unisim_predict
 
 Pipeline::~Pipeline() = default;
 
-std::string Pipeline::prepare() { return impl_->prepare(); }
+Preparation Pipeline::prepare() { return impl_->prepare(); }
 
 const Result& Pipeline::run() { return impl_->run(); }
 

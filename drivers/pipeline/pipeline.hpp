@@ -63,6 +63,13 @@ struct Result {
   double wall_s = 0.0;
 };
 
+/// Whether a run can begin.
+struct Preparation {
+  enum class Answer { kReady, kBadConfiguration, kNoMemory };
+  Answer answer = Answer::kReady;
+  std::string message;  ///< one line unless kReady
+};
+
 /// One run. Everything it holds is bounded by its options, but for the poses in the result.
 ///
 /// Threads: the source is read on a thread of its own, all else happens on the thread that calls
@@ -80,8 +87,7 @@ class Pipeline {
   Pipeline& operator=(const Pipeline&) = delete;
 
   /// Makes the session, so that a configuration it refuses is known before any frame is read.
-  /// @return empty, or one line saying what is wrong
-  std::string prepare();
+  Preparation prepare();
 
   /// Runs the source to its end; once. Calls prepare() if that has not been done.
   const Result& run();

@@ -236,7 +236,7 @@ TEST_CASE("a configuration the session refuses is known before any frame is read
   Run run;
   run.config.window_overlap = run.config.window_size;
   Pipeline pipeline(run.options, run.source.table(), run.predictor.table(), run.config, {});
-  CHECK_FALSE(pipeline.prepare().empty());
+  CHECK(pipeline.prepare().answer == Preparation::Answer::kBadConfiguration);
   CHECK(pipeline.run().outcome == Outcome::kSessionFailed);
   CHECK(run.predictor.observed == 0);
 }

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Runs the programs under test.
+#include "tests/replay/program.hpp"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <thread>
+
+namespace unisim::testing {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Far beyond what any of these runs takes; a hang must not stop the test run.
+constexpr int kPatience_s = 120;
+
+[[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments,
+                         const std::string& out, const std::string& err, long max_file_bytes) {
+  if (max_file_bytes >= 0) {
+    const auto bytes = static_cast<rlim_t>(max_file_bytes);
+    const rlimit limit = {bytes, bytes};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  std::vector<char*> argv = {const_cast<char*>(program.c_str())};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+  dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+  execv(program.c_str(), argv.data());
+  _exit(127);
+}
+
+bool time_to_interrupt(const Disturbance& disturbance, Clock::duration elapsed,
+                       const std::string& out) {
+  if (!disturbance.interrupt_on.empty()) {
+    return read_file(out).find(disturbance.interrupt_on) != std::string::npos;
+  }
+  return disturbance.interrupt_after_s >= 0.0 &&
+         elapsed > std::chrono::duration<double>(disturbance.interrupt_after_s);
+}
+
+int wait_for(pid_t child, const Disturbance& disturbance, const std::string& out) {
+  const Clock::time_point start = Clock::now();
+  bool interrupted = false;
+  int status = 0;
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    const Clock::duration elapsed = Clock::now() - start;
+    if (!interrupted && time_to_interrupt(disturbance, elapsed, out)) {
+      interrupted = true;
+      kill(child, SIGINT);
+    }
+    if (elapsed > std::chrono::seconds(kPatience_s)) kill(child, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+ProgramResult run(const std::string& program, const std::vector<std::string>& arguments,
+                  const Disturbance& disturbance) {
+  const TempFolder folder;
+  const std::string out = folder / "out";
+  const std::string err = folder / "err";
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("cannot start " + program);
+  if (child == 0) become(program, arguments, out, err, disturbance.max_file_bytes);
+  ProgramResult result;
+  result.code = wait_for(child, disturbance, out);
+  result.out = read_file(out);
+  result.err = read_file(err);
+  return result;
+}
+
+}  // namespace
+
+TempFolder::TempFolder() {
+  std::string name = (fs::temp_directory_path() / "unisim-replay-test-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  path_ = name;
+}
+
+TempFolder::~TempFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+ProgramResult run_replay(const std::vector<std::string>& arguments,
+                         const Disturbance& disturbance) {
+  return run(UNISIM_REPLAY_PROGRAM, arguments, disturbance);
+}
+
+int render(const std::string& path, const std::string& size) {
+  return run(UNISIM_SYNTH_PROGRAM, {path, "--frames", "80", "--size", size}, {}).code;
+}
+
+const std::string& rendered_sequence() {
+  static const TempFolder folder;
+  static const std::string path = [] {
+    std::string sequence = folder / "sequence";
+    if (render(sequence, "320x240") != 0) throw std::runtime_error("unisim-synth failed");
+    return sequence;
+  }();
+  return path;
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+}
+
+}  // namespace unisim::testing

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Runs the programs under test and keeps their files in a folder of its own.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace unisim::testing {
+
+struct ProgramResult {
+  int code = -1;    ///< exit code, 128 + n when signal n ended it
+  std::string out;  ///< stdout
+  std::string err;  ///< stderr
+};
+
+/// A fresh folder, removed at the end.
+class TempFolder {
+ public:
+  TempFolder();
+  ~TempFolder();
+  TempFolder(const TempFolder&) = delete;
+  TempFolder& operator=(const TempFolder&) = delete;
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Limits and disturbances of a run.
+struct Disturbance {
+  double interrupt_after_s = -1.0;  ///< SIGINT then
+  std::string interrupt_on;         ///< SIGINT once this stands in the output
+  long max_file_bytes = -1;         ///< as on a full disk: larger files cannot be written
+};
+
+/// unisim-replay with these arguments.
+ProgramResult run_replay(const std::vector<std::string>& arguments,
+                         const Disturbance& disturbance = {});
+
+/// A rendered sequence of 320x240 with ground truth; made once per process.
+const std::string& rendered_sequence();
+
+/// unisim-synth into `path`. @return its exit code
+int render(const std::string& path, const std::string& size);
+
+std::string read_file(const std::string& path);
+void write_file(const std::string& path, const std::string& text);
+
+}  // namespace unisim::testing

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: MIT
+// unisim-replay as a user meets it: files, figures, exit codes.
+#include "tests/replay/program.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/catch.hpp"
+
+using namespace unisim::testing;
+namespace fs = std::filesystem;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+int lines_in(const std::string& text) {
+  return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// Poses of a TUM file.
+int poses_in(const std::string& path) {
+  std::istringstream text(read_file(path));
+  int count = 0;
+  for (std::string line; std::getline(text, line);) count += line.empty() || line[0] == '#' ? 0 : 1;
+  return count;
+}
+
+/// A copy of the rendered sequence that a test may damage: images and rgb.txt.
+class Damaged {
+ public:
+  Damaged() {
+    fs::copy(fs::path(rendered_sequence()) / "rgb", path() + "/rgb", fs::copy_options::recursive);
+    for (const char* name : {"rgb.txt", "groundtruth.txt"}) {
+      fs::copy_file(fs::path(rendered_sequence()) / name, path() + "/" + name);
+    }
+    std::istringstream list(read_file(path() + "/rgb.txt"));
+    for (std::string line; std::getline(list, line);) {
+      if (!line.empty() && line[0] != '#') lines.push_back(line);
+    }
+  }
+
+  std::string path() const { return folder_ / "."; }
+  std::string image(size_t k) const {
+    return path() + "/" + lines.at(k).substr(lines.at(k).find(' ') + 1);
+  }
+  double time(size_t k) const { return std::stod(lines.at(k)); }
+  void set_time(size_t k, double time) {
+    std::ostringstream line;
+    line.precision(6);
+    line << std::fixed << time << lines.at(k).substr(lines.at(k).find(' '));
+    lines.at(k) = line.str();
+  }
+  void save_list() const {
+    std::string text;
+    for (const std::string& line : lines) text += line + "\n";
+    write_file(path() + "/rgb.txt", text);
+  }
+
+  std::vector<std::string> lines;
+
+ private:
+  TempFolder folder_;
+};
+
+std::vector<std::string> arguments(const std::string& sequence, const std::string& out) {
+  return {sequence, "--out", out, "--stride", "4", "--quiet"};
+}
+
+std::vector<std::string> with(std::vector<std::string> list, const std::vector<std::string>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+  return list;
+}
+
+/// One clear line and nothing else.
+void require_failure(const ProgramResult& result, int code, const std::string& part) {
+  INFO(result.err);
+  CHECK(result.code == code);
+  CHECK(has(result.err, part));
+  CHECK(lines_in(result.err) == 1);
+  CHECK(result.err.rfind("unisim-replay: ", 0) == 0);
+}
+
+}  // namespace
+
+TEST_CASE("bad usage is one line and exit code 2") {
+  const TempFolder folder;
+  const std::string out = folder / "out";
+  require_failure(run_replay({}), 2, "SEQUENCE is missing");
+  require_failure(run_replay({"somewhere"}), 2, "--out is missing");
+  require_failure(run_replay({"somewhere", "--out", out, "--sride", "5"}), 2, "--sride");
+  require_failure(run_replay({"somewhere", "--out", out, "--stride", "0"}), 2, "--stride");
+  require_failure(run_replay({"s", "--out", out, "--from", "5", "--to", "5"}), 2, "--to");
+  require_failure(run_replay({"s", "--out", out, "--predictor", "recorded"}), 2, "--predictions");
+}
+
+TEST_CASE("what is not built yet is refused, not ignored") {
+  const TempFolder folder;
+  const std::string out = folder / "out";
+  const std::vector<std::vector<std::string>> wanted = {
+      {"--predictor", "onnx"},  {"--model", "m.onnx"}, {"--model-2v", "m.onnx"},
+      {"--model-mv", "m.onnx"}, {"--lcm", "udpm://"},  {"--format", "lcm"}};
+  for (const std::vector<std::string>& option : wanted) {
+    require_failure(run_replay(with({"somewhere", "--out", out}, option)), 2, "not built yet");
+  }
+  CHECK_FALSE(fs::exists(out));
+}
+
+TEST_CASE("input that is not a sequence is one line and exit code 3") {
+  const TempFolder folder;
+  const std::string out = folder / "out";
+  fs::create_directory(folder / "empty");
+  write_file(folder / "notes.txt", "no images here\n");
+  require_failure(run_replay(arguments(folder / "missing", out)), 3, folder / "missing");
+  require_failure(run_replay(arguments(folder / "empty", out)), 3, folder / "empty");
+  require_failure(run_replay(arguments(folder / "notes.txt", out)), 3, folder / "notes.txt");
+}
+
+TEST_CASE("a folder that cannot be written is known before the work starts") {
+  const TempFolder folder;
+  write_file(folder / "file", "");
+  require_failure(run_replay(arguments(rendered_sequence(), folder / "file")), 3, "not a folder");
+  require_failure(run_replay(arguments(rendered_sequence(), "/dev/full")), 3, "not a folder");
+  require_failure(run_replay(arguments(rendered_sequence(), "/proc/unisim/out")), 3,
+                  "cannot be written");
+}
+
+TEST_CASE("a configuration file is checked key by key") {
+  const TempFolder folder;
+  const std::string file = folder / "run.toml";
+  const auto run = [&](const std::string& text) {
+    write_file(file, text);
+    return run_replay({"somewhere", "--out", folder / "out", "--config", file});
+  };
+  require_failure(run("[session]\nwindow_sise = 8\n"), 2, "did you mean session.window_size?");
+  require_failure(run("[sesion]\nwindow_size = 8\n"), 2, "did you mean session.window_size?");
+  require_failure(run("[session]\nwindow_size = \"8\"\n"), 2, "must be a whole number");
+  require_failure(run("[pipeline]\nrealtime = 1\n"), 2, "must be true or false");
+  require_failure(run("[session]\nwindow_size = 8000000000\n"), 2, "out of range");
+  require_failure(run("[session\n"), 3, "run.toml:1");
+  require_failure(run_replay({"s", "--out", "o", "--config", folder / "none.toml"}), 3,
+                  "none.toml");
+}
+
+TEST_CASE("the printed configuration can be read back and says the same") {
+  const TempFolder folder;
+  const ProgramResult first = run_replay({"--print-config", "--window", "12", "--stride", "3"});
+  CHECK(first.code == 0);
+  CHECK(has(first.out, "window_size = 12"));
+  CHECK(has(first.out, "stride = 3"));
+  write_file(folder / "run.toml", first.out);
+  const ProgramResult second = run_replay({"--print-config", "--config", folder / "run.toml"});
+  CHECK(second.code == 0);
+  CHECK(second.out == first.out);
+}
+
+TEST_CASE("a rendered sequence gives a trajectory, its figures and the same bytes each time") {
+  const TempFolder folder;
+  const std::string out = folder / "first";
+  const ProgramResult result = run_replay(
+      with(arguments(rendered_sequence(), out), {"--every-frame", "--record", folder / "record"}));
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  const nlohmann::json summary = nlohmann::json::parse(read_file(out + "/summary.json"));
+  CHECK(summary.at("schema") == 1);
+  CHECK(summary.at("format") == "tum");
+  CHECK(summary.at("frames") == 80);
+  CHECK(summary.at("keyframes") == 20);
+  CHECK(summary.at("coverage") >= 0.95);
+  CHECK(summary.at("ate_rmse_m") < 0.05);
+  CHECK(summary.at("ate_live_rmse_m") < 0.1);
+  CHECK(summary.at("protocol").at("associated") == 20);
+  CHECK(summary.at("timing_ms").at("track_total").at("n") == 20);
+  CHECK(summary.at("memory").at("heap_calls_after_init") == 0);
+  CHECK(poses_in(out + "/trajectory.tum") == 20);
+  CHECK(poses_in(out + "/trajectory_frames.tum") > 60);
+  CHECK(lines_in(read_file(out + "/keyframes.csv")) == 21);
+
+  SECTION("a second run writes the same bytes") {
+    const std::string again = folder / "second";
+    REQUIRE(run_replay(with(arguments(rendered_sequence(), again), {"--every-frame"})).code == 0);
+    for (const char* name :
+         {"trajectory.tum", "trajectory_live.tum", "trajectory_frames.tum", "keyframes.csv"}) {
+      CHECK(read_file(out + "/" + name) == read_file(again + "/" + name));
+    }
+  }
+  SECTION("the recording gives the same bytes without a predictor") {
+    const std::string again = folder / "recorded";
+    REQUIRE(run_replay(with(arguments(rendered_sequence(), again),
+                            {"--predictor", "recorded", "--predictions", folder / "record"}))
+                .code == 0);
+    CHECK(read_file(out + "/trajectory.tum") == read_file(again + "/trajectory.tum"));
+  }
+  SECTION("results are not overwritten without being asked to") {
+    require_failure(run_replay(arguments(rendered_sequence(), out)), 2, "--force");
+    CHECK(run_replay(with(arguments(rendered_sequence(), out), {"--force"})).code == 0);
+  }
+}
+
+TEST_CASE("damaged frames are told and survived") {
+  Damaged sequence;
+  const TempFolder folder;
+  std::string told;
+  SECTION("truncated image") {
+    fs::resize_file(sequence.image(30), 900);
+    told = fs::path(sequence.image(30)).filename().string();
+  }
+  SECTION("empty image") {
+    fs::resize_file(sequence.image(30), 0);
+    told = fs::path(sequence.image(30)).filename().string();
+  }
+  SECTION("missing image") {
+    fs::remove(sequence.image(30));
+    told = fs::path(sequence.image(30)).filename().string();
+  }
+  SECTION("time that repeats") {
+    sequence.set_time(30, sequence.time(29));
+    sequence.save_list();
+    told = "30";
+  }
+  SECTION("time that goes back") {
+    sequence.set_time(30, sequence.time(20));
+    sequence.save_list();
+    told = "30";
+  }
+  SECTION("image of another size") {
+    const TempFolder other;
+    REQUIRE(render(other / "small", "160x120") == 0);
+    const fs::path small = fs::path(other / "small") / "rgb";
+    fs::copy_file(fs::directory_iterator(small)->path(), sequence.image(30),
+                  fs::copy_options::overwrite_existing);
+    told = "160x120";
+  }
+  const ProgramResult result = run_replay(arguments(sequence.path(), folder / "out"));
+  INFO(result.err);
+  CHECK(result.code == 0);
+  CHECK(has(result.err, told));
+  const nlohmann::json summary =
+      nlohmann::json::parse(read_file((folder / "out") + "/summary.json"));
+  CHECK(summary.at("frames") == 79);
+  CHECK(summary.at("frames_bad") == 1);
+  CHECK(summary.at("coverage") >= 0.95);
+}
+
+TEST_CASE("a sequence of damaged images only is bad input") {
+  Damaged sequence;
+  const TempFolder folder;
+  for (size_t k = 0; k < sequence.lines.size(); ++k) fs::resize_file(sequence.image(k), 100);
+  const ProgramResult result = run_replay(arguments(sequence.path(), folder / "out"));
+  CHECK(result.code == 3);
+  CHECK(has(result.err, "no readable frame"));
+}
+
+TEST_CASE("ground truth of another time base costs the score, not the results") {
+  const TempFolder folder;
+  write_file(folder / "truth.txt",
+             "90000.0 0 0 0 0 0 0 1\n90001.0 1 0 0 0 0 0 1\n90002.0 1 1 0 0 0 0 1\n");
+  const std::string out = folder / "out";
+  const ProgramResult result = run_replay(
+      with(arguments(rendered_sequence(), out), {"--ground-truth", folder / "truth.txt"}));
+  INFO(result.err);
+  CHECK(result.code == 3);
+  CHECK(lines_in(result.err) == 1);
+  CHECK(has(result.err, "truth.txt"));
+  CHECK(poses_in(out + "/trajectory.tum") == 20);
+  CHECK(nlohmann::json::parse(read_file(out + "/summary.json")).at("ate_rmse_m").is_null());
+}
+
+TEST_CASE("ground truth that cannot be read is known before the work starts") {
+  const TempFolder folder;
+  write_file(folder / "truth.txt", "not a trajectory\n");
+  for (const std::string& truth : {folder / "truth.txt", folder / "none.txt"}) {
+    const ProgramResult result =
+        run_replay(with(arguments(rendered_sequence(), folder / "out"), {"--ground-truth", truth}));
+    require_failure(result, 3, truth);
+    CHECK_FALSE(fs::exists((folder / "out") + "/trajectory.tum"));
+  }
+}
+
+TEST_CASE("a camera that does not move gives no trajectory") {
+  Damaged sequence;
+  const TempFolder folder;
+  const std::string still = read_file(sequence.image(0));
+  for (size_t k = 1; k < sequence.lines.size(); ++k) write_file(sequence.image(k), still);
+  const ProgramResult result = run_replay(arguments(sequence.path(), folder / "out"));
+  INFO(result.err);
+  CHECK(result.code == 3);
+  CHECK(has(result.err, "not enough motion"));
+  CHECK_FALSE(fs::exists((folder / "out") + "/trajectory.tum"));
+}
+
+TEST_CASE("Ctrl-C writes what there is and says so") {
+  Damaged sequence;
+  for (size_t k = 1; k < sequence.lines.size(); ++k) {
+    sequence.set_time(k, sequence.time(0) + 0.2 * static_cast<double>(k));
+  }
+  sequence.save_list();
+  const TempFolder folder;
+  const std::string out = folder / "out";
+  Disturbance disturbance;
+  disturbance.interrupt_on = "\"state\":\"tracking\"";
+  const ProgramResult result = run_replay(
+      {sequence.path(), "--out", out, "--stride", "2", "--realtime", "--json"}, disturbance);
+  INFO(result.err);
+  CHECK(result.code == 1);
+  CHECK(has(result.err, "interrupted; what was known is written"));
+  const int poses = poses_in(out + "/trajectory.tum");
+  CHECK(poses >= 2);
+  CHECK(poses < 40);
+  const nlohmann::json summary = nlohmann::json::parse(read_file(out + "/summary.json"));
+  CHECK(summary.at("outcome") == "interrupted");
+}
+
+TEST_CASE("a full disk is one line per file that is missing, no file is half there") {
+  const TempFolder folder;
+  const std::string out = folder / "out";
+  Disturbance disturbance;
+  disturbance.max_file_bytes = 1000;
+  const ProgramResult result =
+      run_replay(with(arguments(rendered_sequence(), out), {"--no-report"}), disturbance);
+  INFO(result.err);
+  CHECK(result.code == 4);
+  CHECK(has(result.err, "trajectory.tum: File too large"));
+  for (const fs::directory_entry& entry : fs::directory_iterator(out)) {
+    INFO(entry.path());
+    CHECK(entry.path().extension() != ".part");
+    CHECK(entry.path().filename() != "trajectory.tum");
+  }
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Opens what a run works with.
+#include "tools/replay/inputs.hpp"
+
+#include <filesystem>
+
+#include "drivers/geometric/geometric.h"
+#include "drivers/recorded/recorded.h"
+#include "drivers/replay/sequence.h"
+#include "tools/replay/failure.hpp"
+
+namespace unisim::replay {
+namespace {
+
+constexpr size_t kLine = 512;
+
+PredictorPtr open_inner(const Options& options, std::string* note) {
+  char message[kLine] = "";
+  if (options.predictor == "recorded") {
+    PredictorPtr predictor(
+        unisim_recorded_open(options.predictions.c_str(), message, sizeof message));
+    if (predictor == nullptr) throw Failure(kExitInput, message);
+    *note = message;
+    return predictor;
+  }
+  PredictorPtr predictor(
+      unisim_geometric_create(&options.settings.geometric, message, sizeof message));
+  if (predictor == nullptr) throw Failure(kExitUsage, message);
+  return predictor;
+}
+
+}  // namespace
+
+SourcePtr open_sequence(const Options& options, std::string* note) {
+  unisim_sequence_options wanted{};
+  wanted.struct_size = sizeof wanted;
+  wanted.format = options.format.c_str();
+  wanted.from = options.from;
+  wanted.to = options.to;
+  char message[kLine] = "";
+  SourcePtr source(
+      unisim_sequence_open(options.sequence.c_str(), &wanted, message, sizeof message));
+  if (source == nullptr) throw Failure(kExitInput, message);
+  *note = unisim_sequence_note(source.get());
+  return source;
+}
+
+PredictorPtr open_predictor(const Options& options, std::string* note) {
+  PredictorPtr inner = open_inner(options, note);
+  if (options.record.empty()) return inner;
+  std::error_code ignored;
+  if (!options.force && std::filesystem::is_regular_file(options.record, ignored)) {
+    throw Failure(kExitUsage, options.record + ": exists; give --force to overwrite it");
+  }
+  char message[kLine] = "";
+  PredictorPtr recorder(unisim_recorder_create(inner.get(), options.record.c_str(),
+                                               options.sequence.c_str(), message, sizeof message));
+  if (recorder == nullptr) throw Failure(kExitInput, message);
+  static_cast<void>(inner.release());  // owned by the recorder now
+  return recorder;
+}
+
+std::string recorder_problem(const Options& options, const unisim_predictor* predictor) {
+  return options.record.empty() ? "" : unisim_recorder_problem(predictor);
+}
+
+}  // namespace unisim::replay

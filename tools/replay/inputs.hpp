@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Opens what a run works with: the sequence and the predictor.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "drivers/predictor.h"
+#include "drivers/source.h"
+#include "tools/replay/options.hpp"
+
+namespace unisim::replay {
+
+struct Destroy {
+  void operator()(unisim_source* source) const { source->destroy(source); }
+  void operator()(unisim_predictor* predictor) const { predictor->destroy(predictor); }
+};
+using SourcePtr = std::unique_ptr<unisim_source, Destroy>;
+using PredictorPtr = std::unique_ptr<unisim_predictor, Destroy>;
+
+/// Throws Failure (3).
+/// @param note one line worth telling, "" if none
+SourcePtr open_sequence(const Options& options, std::string* note);
+
+/// The predictor asked for, inside a recorder where --record asks for one. Throws Failure.
+/// @param note one line worth telling, "" if none
+PredictorPtr open_predictor(const Options& options, std::string* note);
+
+/// Why recording stopped, "" while all is well or nothing is recorded.
+std::string recorder_problem(const Options& options, const unisim_predictor* predictor);
+
+}  // namespace unisim::replay

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// The command line of unisim-replay.
+#include "tools/replay/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <map>
+#include <vector>
+
+#include "tools/replay/failure.hpp"
+#include "tools/replay/version.hpp"
+
+namespace unisim::replay {
+namespace {
+
+const std::map<std::string, uint32_t> kFactors = {
+    {"e2v", UNISIM_FACTOR_TWO_VIEW},
+    {"anchor", UNISIM_FACTOR_SCALE_ANCHOR},
+    {"bridge", UNISIM_FACTOR_BRIDGE},
+    {"tie", UNISIM_FACTOR_TIE},
+    {"scale", UNISIM_FACTOR_SCALE},
+    {"v2s", UNISIM_FACTOR_BRIDGE | UNISIM_FACTOR_SCALE_ANCHOR},
+    {"s2s", UNISIM_FACTOR_TIE | UNISIM_FACTOR_SCALE}};
+
+/// What the command line says, before it meets the configuration file.
+struct Given {
+  std::string config;
+  std::optional<int32_t> stride;
+  std::optional<int32_t> window;
+  std::optional<int32_t> overlap;
+  std::optional<double> focal;
+  std::vector<std::string> disabled;
+  bool every_frame = false;
+  bool realtime = false;
+  bool no_loop = false;
+  std::string model, model_pair, model_window, lcm;
+};
+
+void add_input_options(CLI::App* app, Options* options, Given* given) {
+  app->add_option("sequence", options->sequence, "folder, image glob or video file");
+  app->add_option("--format", options->format,
+                  "auto, tum, 7scenes, euroc, kitti, replica, images or video")
+      ->check(CLI::IsMember(
+          {"auto", "tum", "7scenes", "euroc", "kitti", "replica", "images", "video", "lcm"}));
+  app->add_option("--from", options->from, "first frame")->check(CLI::NonNegativeNumber);
+  app->add_option("--to", options->to, "frame after the last one")->check(CLI::NonNegativeNumber);
+  app->add_option("--focal", given->focal, "known focal length in pixels (default: estimated)")
+      ->check(CLI::PositiveNumber);
+  app->add_option("--ground-truth", options->ground_truth,
+                  "poses in TUM format (default: what the sequence carries)");
+  app->add_flag("--realtime", given->realtime, "keep to the recorded times, drop late frames");
+}
+
+void add_method_options(CLI::App* app, Options* options, Given* given) {
+  app->add_option("--predictor", options->predictor, "geometric or recorded")
+      ->check(CLI::IsMember({"geometric", "recorded", "onnx"}));
+  app->add_option("--predictions", options->predictions, "file written by --record");
+  app->add_option("--record", options->record, "store every prediction in this file");
+  app->add_option("--stride", given->stride, "every N-th frame is a keyframe (default: by motion)")
+      ->check(CLI::PositiveNumber);
+  app->add_flag("--every-frame", given->every_frame, "also pose the frames between keyframes");
+  app->add_option("--window", given->window, "keyframes of a submap");
+  app->add_option("--overlap", given->overlap, "keyframes shared by neighbouring submaps");
+  app->add_option("--config", given->config, "TOML file, see --print-config");
+  app->add_flag("--print-config", options->print_config, "print the effective configuration, end");
+  app->add_flag("--no-loop", given->no_loop, "close no loops (none are closed in this version)");
+  app->add_option("--disable", given->disabled,
+                  "leave a factor out: e2v anchor bridge tie scale, "
+                  "or a group: v2s s2s")
+      ->delimiter(',')
+      ->check(CLI::IsMember(kFactors));
+  app->add_option("--model", given->model)->group("");
+  app->add_option("--model-2v", given->model_pair)->group("");
+  app->add_option("--model-mv", given->model_window)->group("");
+  app->add_option("--lcm", given->lcm)->group("");
+}
+
+void add_output_options(CLI::App* app, Options* options) {
+  app->add_option("--out", options->out, "folder for the results, made if absent");
+  app->add_flag("--force", options->force, "overwrite earlier results");
+  app->add_flag("--report,!--no-report", options->report, "write report.html (default)");
+  app->add_flag("--quiet", options->quiet, "no progress");
+  app->add_flag("--json", options->json, "progress and result as JSON lines on stdout");
+}
+
+void refuse_not_built(const Options& options, const Given& given) {
+  const auto refuse = [](bool asked, const char* what) {
+    if (asked) throw Failure(kExitUsage, std::string(what) + ": not built yet");
+  };
+  refuse(options.predictor == "onnx", "--predictor onnx");
+  refuse(!given.model.empty(), "--model");
+  refuse(!given.model_pair.empty(), "--model-2v");
+  refuse(!given.model_window.empty(), "--model-mv");
+  refuse(!given.lcm.empty(), "--lcm");
+  refuse(options.format == "lcm", "--format lcm");
+}
+
+void apply(const Given& given, Settings* settings) {
+  if (given.stride) settings->pipeline.keyframes.stride = *given.stride;
+  if (given.window) settings->session.window_size = *given.window;
+  if (given.overlap) settings->session.window_overlap = *given.overlap;
+  if (given.focal) settings->geometric.focal_px = *given.focal;
+  if (given.every_frame) settings->pipeline.every_frame = true;
+  if (given.realtime) settings->pipeline.realtime = true;
+  for (const std::string& name : given.disabled) {
+    settings->session.disabled_factors |= kFactors.at(name);
+  }
+}
+
+void check(const Options& options) {
+  const auto require = [](bool good, const char* line) {
+    if (!good) throw Failure(kExitUsage, line);
+  };
+  const pipeline::Options& run = options.settings.pipeline;
+  require(!options.sequence.empty(), "SEQUENCE is missing: give a folder, a glob or a video file");
+  require(!options.out.empty(), "--out is missing: give a folder for the results");
+  require(options.to < 0 || options.to > options.from, "--to must be greater than --from");
+  require(options.predictor != "recorded" || !options.predictions.empty(),
+          "--predictor recorded needs --predictions FILE");
+  require(options.predictions.empty() || options.predictor == "recorded",
+          "--predictions goes with --predictor recorded");
+  require(run.keyframes.stride >= 0, "pipeline.stride must be 0 or more");
+  require(run.keyframes.min_gap >= 1, "pipeline.min_gap must be 1 or more");
+  require(run.keyframes.max_gap >= run.keyframes.min_gap,
+          "pipeline.max_gap must be at least pipeline.min_gap");
+  require(run.queue_frames >= 1 && run.queue_frames <= 256, "pipeline.queue_frames must be 1..256");
+}
+
+}  // namespace
+
+std::optional<Options> parse_options(int argc, const char* const* argv) {
+  CLI::App app("Replays a recorded sequence: images in, trajectory, map and report out.",
+               "unisim-replay");
+  app.set_version_flag("--version", version_text());
+  Options options;
+  Given given;
+  options.settings = default_settings();
+  add_input_options(&app, &options, &given);
+  add_method_options(&app, &options, &given);
+  add_output_options(&app, &options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    app.exit(success);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    throw Failure(kExitUsage, std::string(error.what()) + "; --help lists the options");
+  }
+  refuse_not_built(options, given);
+  if (!given.config.empty()) load_settings(given.config, &options.settings);
+  apply(given, &options.settings);
+  if (!options.print_config) check(options);
+  return options;
+}
+
+}  // namespace unisim::replay

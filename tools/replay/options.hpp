@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The command line of unisim-replay.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "tools/replay/settings.hpp"
+
+namespace unisim::replay {
+
+struct Options {
+  std::string sequence;
+  std::string out;
+  std::string format = "auto";
+  std::string predictor = "geometric";
+  std::string predictions;  ///< file of --predictor recorded
+  std::string record;       ///< file to write, "" for none
+  std::string ground_truth;
+  int64_t from = 0;
+  int64_t to = -1;  ///< -1: to the end
+  bool force = false;
+  bool quiet = false;
+  bool json = false;
+  bool report = true;
+  bool print_config = false;
+  Settings settings;  ///< defaults, then --config, then the options
+};
+
+/// Reads the command line and the configuration it names. Throws Failure.
+/// @return nothing when --help or --version has been answered
+std::optional<Options> parse_options(int argc, const char* const* argv);
+
+}  // namespace unisim::replay

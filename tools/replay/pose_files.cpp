@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Trajectories and the keyframe table as text.
+#include "tools/replay/pose_files.hpp"
+
+#include <cstdarg>
+#include <cstdio>
+
+#include "tools/replay/progress_line.hpp"
+
+namespace unisim::replay {
+namespace {
+
+/// Appends as printf does.
+[[gnu::format(printf, 2, 3)]] void append(std::string* text, const char* format, ...) {
+  char line[512];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  *text += line;
+}
+
+/// Seconds with all nine digits: a double would round present-day times.
+void append_seconds(std::string* text, int64_t time_ns) {
+  constexpr int64_t kSecond = 1000000000;
+  const bool negative = time_ns < 0;
+  const int64_t size = negative ? -time_ns : time_ns;
+  append(text, "%s%lld.%09lld", negative ? "-" : "", static_cast<long long>(size / kSecond),
+         static_cast<long long>(size % kSecond));
+}
+
+}  // namespace
+
+std::string trajectory_text(const std::string& title, const std::vector<unisim_stamped_pose>& poses,
+                            double scale) {
+  std::string text = "# " + title + "\n";
+  text += "# timestamp [s] tx ty tz qx qy qz qw; camera-to-world, OpenCV axes\n";
+  text += "# unit of length: arbitrary, one camera does not see scale\n";
+  if (scale > 0.0) append(&text, "# aligned with ground truth, 1 unit = %.9g m\n", scale);
+  for (const unisim_stamped_pose& pose : poses) {
+    const unisim_sim3& T = pose.T_world_cam;
+    append_seconds(&text, pose.timestamp_ns);
+    append(&text, " %.10g %.10g %.10g %.10g %.10g %.10g %.10g\n", T.t[0], T.t[1], T.t[2], T.q[0],
+           T.q[1], T.q[2], T.q[3]);
+  }
+  return text;
+}
+
+std::string keyframe_table(const std::vector<KeyframeRow>& rows) {
+  std::string text = "id,timestamp,scale,state,confidence,submap,covariance_trace,segment,frame\n";
+  for (const KeyframeRow& row : rows) {
+    append(&text, "%d,", row.pose.keyframe_id);
+    append_seconds(&text, row.pose.timestamp_ns);
+    append(&text, ",%.10g,%s,%d,%d,", row.pose.T_world_kf.s, state_name(row.pose.state),
+           row.pose.confidence, row.pose.submap_id);
+    if (row.covariance_trace >= 0.0) append(&text, "%.6g", row.covariance_trace);
+    append(&text, ",%d,%lld\n", row.pose.segment, static_cast<long long>(row.frame_index));
+  }
+  return text;
+}
+
+}  // namespace unisim::replay

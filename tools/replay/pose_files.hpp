@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Trajectories and the keyframe table as text.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/replay/run_data.hpp"
+
+namespace unisim::replay {
+
+/// TUM format: timestamp [s] tx ty tz qx qy qz qw, camera-to-world, comments first.
+/// @param title what the poses are
+/// @param scale metres per unit found by alignment with ground truth, <= 0: not known
+std::string trajectory_text(const std::string& title, const std::vector<unisim_stamped_pose>& poses,
+                            double scale);
+
+/// CSV: one line per keyframe that has a pose.
+std::string keyframe_table(const std::vector<KeyframeRow>& rows);
+
+}  // namespace unisim::replay

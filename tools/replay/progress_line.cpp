@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Progress and messages of a run.
+#include "tools/replay/progress_line.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+namespace unisim::replay {
+namespace {
+
+constexpr int kBarWidth = 24;
+
+std::string bar(double share) {
+  const int full = static_cast<int>(share * kBarWidth);
+  return "[" + std::string(static_cast<size_t>(full), '=') +
+         std::string(static_cast<size_t>(kBarWidth - full), ' ') + "] ";
+}
+
+}  // namespace
+
+const char* state_name(int32_t state) {
+  switch (state) {
+    case UNISIM_STATE_INIT:
+      return "init";
+    case UNISIM_STATE_TRACKING:
+      return "tracking";
+    case UNISIM_STATE_DEGRADED:
+      return "degraded";
+    case UNISIM_STATE_LOST:
+      return "lost";
+    case UNISIM_STATE_RELOCALISED:
+      return "relocalised";
+    default:
+      return "unknown";
+  }
+}
+
+double ProgressLine::seconds() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+bool ProgressLine::due() {
+  if (style_ == Style::kNone || Clock::now() < next_) return false;
+  const int period_ms = style_ == Style::kTerminal ? 100 : style_ == Style::kJson ? 1000 : 5000;
+  next_ = Clock::now() + std::chrono::milliseconds(period_ms);
+  return true;
+}
+
+void ProgressLine::on_progress(const pipeline::Progress& progress) {
+  if (!due()) return;
+  if (style_ == Style::kJson) return print_json(progress);
+  print_line(progress);
+  line_open_ = style_ == Style::kTerminal;
+}
+
+void ProgressLine::print_line(const pipeline::Progress& progress) const {
+  const double fps = static_cast<double>(progress.frames) / std::max(seconds(), 1e-3);
+  std::string text;
+  const int64_t done = progress.frames + progress.frames_bad + progress.frames_dropped;
+  if (progress.frames_total > 0) {
+    text =
+        bar(std::min(1.0, static_cast<double>(done) / static_cast<double>(progress.frames_total)));
+  }
+  char line[160];
+  std::snprintf(line, sizeof line, "%lld frames, %.0f/s, %d keyframes, %d submaps, %s",
+                static_cast<long long>(progress.frames), fps, progress.keyframes, progress.submaps,
+                state_name(progress.state));
+  text += line;
+  if (progress.frames_total > done && fps > 0.0) {
+    std::snprintf(line, sizeof line, ", %.0f s left",
+                  static_cast<double>(progress.frames_total - done) / fps);
+    text += line;
+  }
+  if (style_ == Style::kTerminal)
+    std::cerr << "\r\x1b[K" << text << std::flush;
+  else
+    std::cerr << text << "\n";
+}
+
+void ProgressLine::print_json(const pipeline::Progress& progress) const {
+  const nlohmann::ordered_json line = {{"type", "progress"},
+                                       {"frames", progress.frames},
+                                       {"frames_total", progress.frames_total},
+                                       {"frames_bad", progress.frames_bad},
+                                       {"frames_dropped", progress.frames_dropped},
+                                       {"keyframes", progress.keyframes},
+                                       {"submaps", progress.submaps},
+                                       {"state", state_name(progress.state)},
+                                       {"seconds", seconds()}};
+  std::cout << line.dump() << std::endl;
+}
+
+void ProgressLine::on_message(const std::string& line) {
+  if (style_ == Style::kJson) {
+    std::cout << nlohmann::ordered_json({{"type", "message"}, {"text", line}}).dump() << std::endl;
+    return;
+  }
+  finish();
+  std::cerr << line << "\n";
+}
+
+void ProgressLine::finish() {
+  if (line_open_) std::cerr << "\n";
+  line_open_ = false;
+}
+
+}  // namespace unisim::replay

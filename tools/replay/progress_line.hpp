@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Progress and messages of a run: a bar on a terminal, lines elsewhere, JSON on request.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "drivers/pipeline/listener.hpp"
+
+namespace unisim::replay {
+
+/// Name of a UNISIM_STATE_*.
+const char* state_name(int32_t state);
+
+class ProgressLine : public pipeline::Listener {
+ public:
+  enum class Style {
+    kNone,      ///< messages only
+    kTerminal,  ///< one line on stderr, rewritten ten times a second
+    kLines,     ///< a line on stderr every five seconds
+    kJson,      ///< objects on stdout, one a second
+  };
+
+  explicit ProgressLine(Style style) : style_(style) {}
+
+  void on_progress(const pipeline::Progress& progress) override;
+  void on_message(const std::string& line) override;
+
+  /// Ends the line of a terminal.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool due();
+  void print_line(const pipeline::Progress& progress) const;
+  void print_json(const pipeline::Progress& progress) const;
+  double seconds() const;
+
+  Style style_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point next_ = start_;
+  bool line_open_ = false;
+};
+
+}  // namespace unisim::replay

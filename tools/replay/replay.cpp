@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// One run of unisim-replay.
+#include "tools/replay/replay.hpp"
+
+#include <unistd.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "tools/replay/failure.hpp"
+#include "tools/replay/heap_counter.hpp"
+#include "tools/replay/inputs.hpp"
+#include "tools/replay/output_folder.hpp"
+#include "tools/replay/pose_files.hpp"
+#include "tools/replay/progress_line.hpp"
+#include "tools/replay/run_data.hpp"
+#include "tools/replay/scores.hpp"
+#include "tools/replay/summary.hpp"
+
+namespace unisim::replay {
+namespace {
+
+// Length of the map when that of the sequence is not known (some videos).
+constexpr int32_t kUnknownLengthKeyframes = 1024;
+
+std::vector<std::string> output_names(const Options& options) {
+  std::vector<std::string> names = {"trajectory.tum", "trajectory_live.tum", "keyframes.csv",
+                                    "summary.json"};
+  if (options.settings.pipeline.every_frame) names.emplace_back("trajectory_frames.tum");
+  return names;
+}
+
+ProgressLine::Style progress_style(const Options& options) {
+  if (options.json) return ProgressLine::Style::kJson;
+  if (options.quiet) return ProgressLine::Style::kNone;
+  return isatty(STDERR_FILENO) != 0 ? ProgressLine::Style::kTerminal : ProgressLine::Style::kLines;
+}
+
+void prepare(pipeline::Pipeline* pipeline) {
+  using Answer = pipeline::Preparation::Answer;
+  const pipeline::Preparation preparation = pipeline->prepare();
+  if (preparation.answer == Answer::kReady) return;
+  const int code = preparation.answer == Answer::kNoMemory ? kExitLimit : kExitUsage;
+  throw Failure(code, preparation.message);
+}
+
+int exit_code(pipeline::Outcome outcome) {
+  switch (outcome) {
+    case pipeline::Outcome::kFinished:
+      return kExitDone;
+    case pipeline::Outcome::kSourceFailed:
+      return kExitInput;
+    case pipeline::Outcome::kCapacity:
+    case pipeline::Outcome::kPredictorFailed:
+      return kExitLimit;
+    case pipeline::Outcome::kStopped:
+    case pipeline::Outcome::kSessionFailed:
+      return kExitOther;
+  }
+  return kExitOther;
+}
+
+void say_problem(const std::string& line) { std::cerr << "unisim-replay: " << line << "\n"; }
+
+/// The run left no pose: says why.
+int report_nothing(const pipeline::Result& result) {
+  std::string line = result.message;
+  int code = exit_code(result.outcome);
+  if (result.outcome == pipeline::Outcome::kFinished) {
+    code = kExitInput;
+    const pipeline::Progress& progress = result.progress;
+    if (progress.frames == 0) {
+      line = "no readable frame among " + std::to_string(progress.frames_bad) +
+             "; give a sequence with images";
+    } else {
+      line = "not enough motion: " + std::to_string(progress.frames) + " frames (" +
+             std::to_string(result.predictor.static_frames) + " still, " +
+             std::to_string(result.predictor.rotation_only) +
+             " keyframes turned on the spot) give no depth; move the camera sideways";
+    }
+  } else {
+    line += "; no pose was known yet, nothing is written";
+  }
+  say_problem(line);
+  return code;
+}
+
+void write_files(const Run& run, OutputFolder* folder) {
+  const double scale = run.scores.ate ? run.scores.ate->T_truth_estimate.s : 0.0;
+  folder->write_text("trajectory.tum",
+                     trajectory_text("keyframes, final poses", run.data.trajectory, scale));
+  folder->write_text("trajectory_live.tum",
+                     trajectory_text("poses as first given out", run.data.live, 0.0));
+  if (run.options.settings.pipeline.every_frame) {
+    folder->write_text("trajectory_frames.tum",
+                       trajectory_text("all frames, final poses", run.data.frames, scale));
+  }
+  folder->write_text("keyframes.csv", keyframe_table(run.data.keyframes));
+  folder->write_text("summary.json", summary_json(run));
+}
+
+void print_result(const Run& run, const OutputFolder& folder) {
+  if (run.options.json) {
+    nlohmann::ordered_json line = {{"type", "result"}, {"files", folder.written()}};
+    line["summary"] = nlohmann::ordered_json::parse(summary_json(run));
+    std::cout << line.dump() << std::endl;
+    return;
+  }
+  std::cout << summary_text(run, folder.written()) << std::flush;
+}
+
+/// Prints what went wrong on the way; the first reason decides the exit code.
+int conclude(const Run& run, const OutputFolder& folder, const std::string& recording) {
+  int code = exit_code(run.result.outcome);
+  const auto add = [&code](int reason, const std::string& line) {
+    if (line.empty()) return;
+    if (code == kExitDone) code = reason;
+    say_problem(line);
+  };
+  if (!run.result.message.empty()) {
+    say_problem(run.result.message + "; what was known is written");
+  }
+  for (const std::string& line : folder.failures()) add(kExitLimit, line);
+  add(kExitLimit, recording);
+  add(kExitInput, run.scores.problem);
+  return code;
+}
+
+}  // namespace
+
+int replay(const Options& options, const std::atomic<bool>& stop) {
+  OutputFolder folder(options.out, output_names(options), options.force);
+  std::string sequence_note;
+  std::string predictor_note;
+  const SourcePtr source = open_sequence(options, &sequence_note);
+  const eval::Trajectory truth = load_ground_truth(options.ground_truth, source.get());
+  const PredictorPtr predictor = open_predictor(options, &predictor_note);
+
+  unisim_config config = options.settings.session;
+  if (!options.settings.max_keyframes_given) {
+    config.max_keyframes =
+        pipeline::keyframe_capacity(source->frame_count(source.get()),
+                                    options.settings.pipeline.keyframes, kUnknownLengthKeyframes);
+  }
+  ProgressLine progress(progress_style(options));
+  for (const std::string& note : {sequence_note, predictor_note}) {
+    if (!note.empty()) progress.on_message(note);
+  }
+  pipeline::Pipeline pipeline(options.settings.pipeline, source.get(), predictor.get(), config,
+                              {&progress}, &stop, heap_counter());
+  prepare(&pipeline);
+  const pipeline::Result& result = pipeline.run();
+  progress.finish();
+
+  const RunData data = collect(pipeline.session(), result, options.settings.pipeline.every_frame);
+  if (data.trajectory.empty()) return report_nothing(result);
+  const Scores scores = score(truth, data);
+  const Run run = {options, result, data, truth, scores, source->format};
+  write_files(run, &folder);
+  print_result(run, folder);
+  return conclude(run, folder, recorder_problem(options, predictor.get()));
+}
+
+}  // namespace unisim::replay

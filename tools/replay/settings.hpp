@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The configuration of a run: every field can be set in a TOML file.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+#include "drivers/geometric/geometric.h"
+#include "drivers/pipeline/pipeline.hpp"
+#include "unisim/unisim.h"
+
+namespace unisim::replay {
+
+/// What `--config` may set: sections [session], [pipeline], [geometric], keys as the fields.
+struct Settings {
+  unisim_config session;
+  unisim_geometric_config geometric;
+  pipeline::Options pipeline;
+  bool max_keyframes_given = false;  ///< else it follows from the length of the sequence
+};
+
+Settings default_settings();
+
+/// Changes what the file names. Throws Failure: unreadable file (3), or (2) unknown section or key,
+/// with the nearest known one, or a value of the wrong type or range.
+void load_settings(const std::string& path, Settings* settings);
+
+/// Writes all fields as a file that load_settings() reads.
+void print_settings(const Settings& settings, std::ostream& out);
+
+}  // namespace unisim::replay

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// The figures of a run.
+#include "tools/replay/summary.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "tools/replay/version.hpp"
+
+namespace unisim::replay {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json rmse_of(const std::optional<eval::Ate>& ate) {
+  return ate ? Json(ate->error.rmse) : Json(nullptr);
+}
+
+Json stage_json(const pipeline::LatencyHistogram& times) {
+  return {{"n", times.count()},
+          {"p50", times.percentile_ms(0.5)},
+          {"p95", times.percentile_ms(0.95)},
+          {"max", times.max_ms()}};
+}
+
+Json protocol_json(const Run& run) {
+  const Options& o = run.options;
+  const int32_t stride = o.settings.pipeline.keyframes.stride;
+  const bool given = o.settings.geometric.focal_px > 0.0;
+  return {{"stride", stride > 0 ? Json(stride) : Json("motion")},
+          {"from", o.from},
+          {"to", o.to < 0 ? Json(nullptr) : Json(o.to)},
+          {"predictor", o.predictor},
+          {"intrinsics", given ? "given" : "estimated"},
+          {"ground_truth", run.truth.name},
+          {"alignment", "sim3"},
+          {"associated", run.scores.ate ? run.scores.ate->pairs.size() : 0},
+          {"poses", "keyframes"},
+          {"window", o.settings.session.window_size},
+          {"overlap", o.settings.session.window_overlap},
+          {"loops", "not built"},
+          {"realtime", o.settings.pipeline.realtime}};
+}
+
+Json memory_json(const Run& run) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  Json memory = {{"arena_bytes", run.data.session.arena_bytes},
+                 {"arena_peak_bytes", run.data.session.arena_peak_bytes},
+                 {"process_peak_bytes", int64_t{usage.ru_maxrss} * 1024},
+                 {"predictor_bytes", run.result.predictor.state_bytes}};
+  if (run.result.heap_calls >= 0) memory["heap_calls_after_init"] = run.result.heap_calls;
+  return memory;
+}
+
+Json timing_json(const pipeline::StageTimes& times) {
+  return {
+      {"decode", stage_json(times.decode)},         {"observe", stage_json(times.observe)},
+      {"keyframe", stage_json(times.keyframe)},     {"two_view", stage_json(times.two_view)},
+      {"multi_view", stage_json(times.multi_view)}, {"depth_ratio", stage_json(times.depth_ratio)},
+      {"descriptor", stage_json(times.descriptor)}, {"graph", stage_json(times.graph)},
+      {"optimize", stage_json(times.optimize)},     {"track_total", stage_json(times.track_total)}};
+}
+
+const char* outcome_name(pipeline::Outcome outcome) {
+  switch (outcome) {
+    case pipeline::Outcome::kFinished:
+      return "finished";
+    case pipeline::Outcome::kStopped:
+      return "interrupted";
+    case pipeline::Outcome::kCapacity:
+      return "map full";
+    case pipeline::Outcome::kSourceFailed:
+      return "source failed";
+    case pipeline::Outcome::kPredictorFailed:
+      return "predictor failed";
+    case pipeline::Outcome::kSessionFailed:
+      return "session failed";
+  }
+  return "unknown";
+}
+
+double frames_per_second(const pipeline::Result& result) {
+  return static_cast<double>(result.progress.frames) / std::max(result.wall_s, 1e-9);
+}
+
+template <typename... Values>
+std::string text(const char* format, Values... values) {
+  char line[256];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
+
+std::string score_line(const Run& run) {
+  const Scores& scores = run.scores;
+  if (!scores.ate) return scores.problem.empty() ? "no ground truth, no score\n" : "no score\n";
+  std::string line = text("ATE %.4f m RMSE (Sim(3), %zu keyframes)", scores.ate->error.rmse,
+                          scores.ate->pairs.size());
+  if (scores.live) line += text(", live poses %.4f m", scores.live->error.rmse);
+  if (scores.rpe) line += text(", RPE %.4f m", scores.rpe->translation.rmse);
+  return line + text(", 1 unit = %.4g m\n", scores.ate->T_truth_estimate.s);
+}
+
+}  // namespace
+
+double coverage(const RunData& data) {
+  if (data.session.keyframes == 0) return 0.0;
+  return static_cast<double>(data.session.posed_keyframes) /
+         static_cast<double>(data.session.keyframes);
+}
+
+std::string summary_json(const Run& run) {
+  const unisim_session_info& info = run.data.session;
+  const Scores& scores = run.scores;
+  const pipeline::Progress& progress = run.result.progress;
+  const double focal = run.result.predictor.focal_px;
+  Json json = {
+      {"schema", 1},
+      {"version", version_text()},
+      {"sequence", run.options.sequence},
+      {"format", run.format},
+      {"protocol", protocol_json(run)},
+      {"outcome", outcome_name(run.result.outcome)},
+      {"frames", progress.frames},
+      {"frames_bad", progress.frames_bad},
+      {"frames_dropped", progress.frames_dropped},
+      {"keyframes", info.keyframes},
+      {"submaps", info.submaps},
+      {"loops", {{"candidates", 0}, {"accepted", 0}, {"rejected", 0}, {"undone", 0}}},
+      {"ate_rmse_m", rmse_of(scores.ate)},
+      {"ate_live_rmse_m", rmse_of(scores.live)},
+      {"rpe_trans_rmse_m", scores.rpe ? Json(scores.rpe->translation.rmse) : Json(nullptr)},
+      {"scale", scores.ate ? Json(scores.ate->T_truth_estimate.s) : Json(nullptr)},
+      {"coverage", coverage(run.data)},
+      {"lost_events", info.lost_events},
+      {"segments", info.segments},
+      {"pairs_refused", info.pairs_refused},
+      {"submaps_refused", info.submaps_refused},
+      {"focal_px", focal > 0.0 ? Json(focal) : Json(nullptr)},
+      {"memory", memory_json(run)},
+      {"timing_ms", timing_json(run.result.times)},
+      {"wall_s", run.result.wall_s},
+      {"fps", frames_per_second(run.result)}};
+  return json.dump(1) + "\n";
+}
+
+std::string summary_text(const Run& run, const std::vector<std::string>& files) {
+  const unisim_session_info& info = run.data.session;
+  const pipeline::Result& result = run.result;
+  const int32_t stride = run.options.settings.pipeline.keyframes.stride;
+  const std::string chosen = stride > 0 ? "every " + std::to_string(stride) : "by motion";
+  std::string out = run.options.sequence + " (" + run.format +
+                    "): " + std::to_string(result.progress.frames) + " frames, " +
+                    std::to_string(info.keyframes) + " keyframes (" + chosen + "), " +
+                    std::to_string(info.submaps) + " submaps, " +
+                    text("%.1f %% of the keyframes posed", 100.0 * coverage(run.data));
+  if (info.segments > 1) out += ", " + std::to_string(info.segments) + " segments";
+  out += "\n" + score_line(run);
+  const char* how = run.options.settings.geometric.focal_px > 0.0 ? "given" : "estimated";
+  if (result.predictor.focal_px > 0.0) {
+    out += text("focal length %.1f px (%s), ", result.predictor.focal_px, how);
+  }
+  const pipeline::LatencyHistogram& live = result.times.track_total;
+  out += text("%.1f s, %.0f frames/s, live pose of a keyframe %.1f ms (p95 %.1f)\n", result.wall_s,
+              frames_per_second(result), live.percentile_ms(0.5), live.percentile_ms(0.95));
+  for (size_t k = 0; k < files.size(); ++k) out += (k == 0 ? "wrote " : "      ") + files[k] + "\n";
+  return out;
+}
+
+}  // namespace unisim::replay
