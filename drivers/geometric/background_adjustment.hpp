@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Adjusts the whole state now and then, beside tracking: on a copy, in a thread of its own, merged
+// at a fixed later keyframe, so that the result does not depend on the thread's speed.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "drivers/geometric/map_adjustment.hpp"
+#include "drivers/geometric/state.hpp"
+
+namespace unisim::geometric {
+
+class BackgroundAdjustment {
+ public:
+  /// @param threaded false: the work is done within start(); the results are the same
+  BackgroundAdjustment(const BundleCapacity& capacity, const MapCapacity& map, bool threaded);
+  ~BackgroundAdjustment();
+  BackgroundAdjustment(const BackgroundAdjustment&) = delete;
+  BackgroundAdjustment& operator=(const BackgroundAdjustment&) = delete;
+
+  bool running() const { return pending_; }
+  /// Keyframe that was newest when the pending adjustment began.
+  int32_t started_at() const { return started_at_; }
+
+  /// Copies the segment's posed keyframes and begins.
+  void start(const State& state, int32_t keyframe, int iterations);
+  /// Waits for the result and takes it into the state; what was added meanwhile moves along.
+  /// @return false when the result no longer fits (the segment ended)
+  bool merge(State* state);
+
+  int64_t bytes() const { return adjustment_.bytes(); }
+
+ private:
+  /// Similarity p' = scale R p + t from the present world to the adjusted one.
+  struct Move {
+    double scale = 1;
+    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d t = Eigen::Vector3d::Zero();
+  };
+  void work();
+  void loop();
+  void wait();
+  Move move_of_newest(const State& state);
+  void move_rest(const Move& move, State* state);
+  void take(State* state);
+
+  MapAdjustment adjustment_;
+  std::vector<int32_t> keyframes_;
+  std::vector<double> ratios_;
+  std::vector<uint8_t> adjusted_;  // by landmark: is in the problem
+  int32_t segment_ = 0;
+  int32_t started_at_ = 0;
+  int iterations_ = 0;
+  bool usable_ = false;
+  double log_focal_sigma_ = 0;
+  bool pending_ = false;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool job_ = false;
+  bool stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace unisim::geometric

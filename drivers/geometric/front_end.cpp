@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// From images to tracks.
+#include "drivers/geometric/front_end.hpp"
+
+#include <algorithm>
+
+namespace unisim::geometric {
+
+namespace {
+constexpr double kCrowded = 0.35;  // of the spacing between features
+}  // namespace
+
+void FrontEnd::open(const cv::Size& size, int max_tracks, int spacing) {
+  size_ = size;
+  max_tracks_ = max_tracks;
+  spacing_ = spacing;
+  mask_.create(size, CV_8UC1);
+  const auto count = static_cast<size_t>(2 * max_tracks);
+  tracker_.reserve(count);
+  retrack_.reserve(count);
+  scratch_.reserve(count);
+}
+
+void FrontEnd::see(const unisim_image& image, Tracks* tracks) {
+  int next = 0;
+  while (next == last_ || next == keyframe_) ++next;
+  PreparedImage& prepared = images_[static_cast<size_t>(next)];
+  preparation_.run(image, &prepared);
+  if (last_ >= 0) flow_ = tracker_.run(current(), prepared, tracks);
+  last_ = next;
+}
+
+TrackMotion FrontEnd::motion(const Tracks& tracks) {
+  scratch_.clear();
+  for (size_t i = 0; i < tracks.size(); ++i) {
+    if (tracks.sealed[i]) scratch_.push_back(cv::norm(tracks.point[i] - tracks.keyframe_point[i]));
+  }
+  TrackMotion out;
+  if (sealed_ == 0) return out;
+  out.kept = static_cast<double>(scratch_.size()) / static_cast<double>(sealed_);
+  if (scratch_.empty()) return out;
+  const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
+  std::nth_element(scratch_.begin(), middle, scratch_.end());
+  out.displacement_px = *middle;
+  return out;
+}
+
+void FrontEnd::begin_keyframe(Tracks* tracks) {
+  if (keyframe_ >= 0 && keyframe_ != last_) {
+    retrack_.run(images_[static_cast<size_t>(keyframe_)], current(), tracks);
+  }
+  remove_crowded(std::max(2, static_cast<int>(kCrowded * spacing_)), &mask_, tracks);
+}
+
+const std::vector<cv::Point2f>& FrontEnd::detect(const Tracks& tracks) {
+  const int wanted = max_tracks_ - static_cast<int>(tracks.size());
+  return detector_.run(current().gray, tracks, wanted, spacing_, &mask_);
+}
+
+void FrontEnd::end_keyframe(Tracks* tracks) {
+  tracks->seal();
+  sealed_ = tracks->size();
+  keyframe_ = last_;
+}
+
+int64_t FrontEnd::bytes() const {
+  const auto pixels = static_cast<int64_t>(size_.area());
+  // Three prepared images, the mask, the gray image and its local mean.
+  return 3 * prepared_image_bytes(size_.width, size_.height) + 3 * pixels;
+}
+
+}  // namespace unisim::geometric

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// From images to tracks: keeps the last frame's and the last keyframe's image and moves the tracks.
+#pragma once
+
+#include <array>
+#include <opencv2/core.hpp>
+
+#include "drivers/geometric/detector.hpp"
+#include "drivers/geometric/frame_tracker.hpp"
+#include "drivers/geometric/keyframe_retrack.hpp"
+#include "drivers/geometric/prepared_image.hpp"
+#include "drivers/geometric/tracks.hpp"
+
+namespace unisim::geometric {
+
+/// How the tracks moved since the last keyframe.
+struct TrackMotion {
+  double displacement_px = -1;  ///< median; < 0: nothing to measure
+  double kept = -1;             ///< share of the keyframe's tracks still followed
+};
+
+class FrontEnd {
+ public:
+  void open(const cv::Size& size, int max_tracks, int spacing);
+  /// Takes the next frame and moves the tracks into it.
+  void see(const unisim_image& image, Tracks* tracks);
+  TrackMotion motion(const Tracks& tracks);
+
+  /// The frame seen last becomes a keyframe: measures the tracks thoroughly.
+  void begin_keyframe(Tracks* tracks);
+  /// Corners for new tracks, see Detector::run().
+  const std::vector<cv::Point2f>& detect(const Tracks& tracks);
+  void end_keyframe(Tracks* tracks);
+
+  const PreparedImage& current() const { return images_[static_cast<size_t>(last_)]; }
+  const cv::Point2f& flow() const { return flow_; }  ///< median over the last frame
+  cv::Mat* mask() { return &mask_; }
+  int64_t bytes() const;
+
+ private:
+  std::array<PreparedImage, 3> images_;  // last frame, last keyframe, the next one
+  int last_ = -1;
+  int keyframe_ = -1;
+  cv::Size size_;
+  int max_tracks_ = 0;
+  int spacing_ = 1;
+  size_t sealed_ = 0;  // tracks at the last keyframe
+  cv::Point2f flow_{0.0F, 0.0F};
+  cv::Mat mask_;
+  ImagePreparation preparation_;
+  FrameTracker tracker_;
+  KeyframeRetrack retrack_;
+  Detector detector_;
+  std::vector<double> scratch_;
+};
+
+}  // namespace unisim::geometric

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: MIT */
+/** @file geometric.h
+ *  The predictor with no model: feature tracks, epipolar geometry and bundle adjustment on one
+ *  camera whose focal length and radial distortion may be unknown.
+ */
+#ifndef UNISIM_DRIVERS_GEOMETRIC_GEOMETRIC_H
+#define UNISIM_DRIVERS_GEOMETRIC_GEOMETRIC_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "drivers/predictor.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Everything a geometric predictor is made with. Its memory follows from these numbers and the size
+ *  of the first image. */
+typedef struct unisim_geometric_config {
+  uint32_t struct_size;
+  int32_t max_tracks;        /**< features followed at a time, 50..2000 (300) */
+  int32_t max_keyframes;     /**< kept in the state, the oldest is dropped first, 32..4096 (256) */
+  int32_t max_landmarks;     /**< kept in the state, at least 4 max_tracks (8000) */
+  int32_t max_window_views;  /**< views of given-out windows kept for revisions (1024) */
+  int32_t window_size;       /**< keyframes adjusted with each new one, 5..64 (16) */
+  int32_t adjust_every;      /**< keyframes between adjustments of the whole state, 0: never (25) */
+  int32_t adjust_latency;    /**< keyframes after which such an adjustment is merged (5) */
+  int32_t background;        /**< 1: whole-state adjustments run in a thread of their own (1) */
+  int32_t revive_age;        /**< keyframes a landmark may be out of sight and be looked for (100) */
+  int32_t revive_tries;      /**< landmarks looked for per keyframe (150) */
+  int32_t reserved;          /**< 0 */
+  double focal_px;           /**< known focal length in pixels; 0: estimate it (0) */
+} unisim_geometric_config;
+
+/** Defaults for every field.
+ *  @param[out] config      struct to fill
+ *  @param      struct_size sizeof(unisim_geometric_config) of the caller */
+void unisim_geometric_config_init(unisim_geometric_config* config, size_t struct_size);
+
+/** Make a geometric predictor.
+ *  @param[in]  config   copied; NULL: defaults
+ *  @param[out] message  one line on failure; may be NULL
+ *  @param      capacity bytes of message
+ *  @return NULL on failure; else free with its destroy() */
+unisim_predictor* unisim_geometric_create(const unisim_geometric_config* config, char* message,
+                                          size_t capacity);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

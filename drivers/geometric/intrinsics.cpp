@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// What is known of the camera, and which of its numbers the images can tell at present.
+#include "drivers/geometric/intrinsics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unisim::geometric {
+
+namespace {
+constexpr double kStartFocal = 0.85;  // of the longer side
+constexpr double kStartSigma = 0.3;   // of log focal length
+constexpr double kK1Sigma = 0.02;
+constexpr double kK1MinRotation = 0.17;  // rad
+constexpr double kMinFocal = 0.3;        // of the image width
+constexpr double kMaxFocal = 3.0;
+}  // namespace
+
+Intrinsics Intrinsics::start(const cv::Size& size, double focal_px) {
+  Intrinsics out;
+  out.focal_known = focal_px > 0;
+  out.start_focal = out.focal_known ? focal_px : kStartFocal * std::max(size.width, size.height);
+  out.camera.focal_px = out.start_focal;
+  out.camera.cx = size.width / 2.0 - 0.5;
+  out.camera.cy = size.height / 2.0 - 0.5;
+  return out;
+}
+
+bool Intrinsics::k1_observable() const { return turned_rad >= kK1MinRotation; }
+
+void Intrinsics::note_rotation(double angle_rad) { turned_rad = std::max(turned_rad, angle_rad); }
+
+void Intrinsics::give(bool early, BundleIntrinsics* out) const {
+  out->set_model(camera);
+  out->free_focal = !focal_known;
+  out->free_k1 = !focal_known && k1_observable();
+  out->log_focal_mean = std::log(start_focal);
+  out->log_focal_sigma = early ? kStartSigma : 0.0;
+  out->k1_mean = 0.0;
+  out->k1_sigma = kK1Sigma;
+}
+
+void Intrinsics::take(const BundleIntrinsics& in, const cv::Size& size) {
+  const CameraModel model = in.model();
+  if (!std::isfinite(model.focal_px) || !std::isfinite(model.k1)) return;
+  camera.focal_px = std::clamp(model.focal_px, kMinFocal * size.width, kMaxFocal * size.width);
+  camera.k1 = model.k1;
+}
+
+}  // namespace unisim::geometric

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What is known of the camera, and which of its numbers the images can tell at present.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "drivers/geometric/bundle/bundle_problem.hpp"
+
+namespace unisim::geometric {
+
+/// Focal length and radial term: start values, priors and the rule by which they are freed.
+///
+/// The focal length starts at 0.85 of the longer side. The radial term stays 0 until the camera has
+/// turned enough: in straight driving it cannot be told from the path and would bend it.
+struct Intrinsics {
+  CameraModel camera;
+  bool focal_known = false;
+  double start_focal = 0;
+  double turned_rad = 0;       ///< largest rotation seen within a segment
+  double log_focal_sigma = 0;  ///< from the last adjustment of the whole state, 0: not known
+
+  /// @param focal_px known focal length or 0
+  static Intrinsics start(const cv::Size& size, double focal_px);
+  bool k1_observable() const;
+  /// Notes a camera turned by `angle_rad` against the segment's start.
+  void note_rotation(double angle_rad);
+  /// Sets values, freedoms and priors of a problem.
+  /// @param early the state is young: the start's prior on the focal length still holds
+  void give(bool early, BundleIntrinsics* out) const;
+  /// Takes values back, within sane limits.
+  void take(const BundleIntrinsics& in, const cv::Size& size);
+};
+
+}  // namespace unisim::geometric

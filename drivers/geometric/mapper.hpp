@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// The running map: what is done with each frame and each keyframe, and in which order.
+#pragma once
+
+#include <memory>
+
+#include "drivers/geometric/background_adjustment.hpp"
+#include "drivers/geometric/bootstrap.hpp"
+#include "drivers/geometric/front_end.hpp"
+#include "drivers/geometric/keyframe_pose.hpp"
+#include "drivers/geometric/landmark_growth.hpp"
+#include "drivers/geometric/map_adjustment.hpp"
+#include "drivers/geometric/patch_store.hpp"
+#include "drivers/geometric/revive.hpp"
+#include "drivers/geometric/state.hpp"
+
+namespace unisim::geometric {
+
+/// Counts of a whole run.
+struct MapperCounts {
+  int32_t restarts = 0;
+  int32_t rotation_only = 0;
+  int32_t started = 0;  ///< segments that found a start
+};
+
+class Mapper {
+ public:
+  Mapper(const unisim_geometric_config& config, const cv::Size& size);
+
+  void see(const unisim_image& image) { front_end_.see(image, &state_.tracks); }
+  TrackMotion motion() { return front_end_.motion(state_.tracks); }
+  /// The frame seen last is keyframe `id`. @return true when the whole state has been adjusted anew
+  bool add_keyframe(int32_t id);
+  /// Pose of the frame seen last.
+  FramePose frame_pose();
+  /// Adjusts the whole state one last time. @return true when it changed
+  bool finish();
+  /// Precision of a window cut from the present state; 0 when not known.
+  double window_sigma(const int32_t* ids, size_t count);
+
+  const State& state() const { return state_; }
+  const MapperCounts& counts() const { return counts_; }
+  StartOutcome start_outcome() const { return start_outcome_; }
+  int64_t bytes() const;
+
+ private:
+  void note_followed();
+  void observe_tracks(size_t first);
+  void detect_tracks();
+  void try_start(int32_t id);
+  void track(int32_t id);
+  void lose(int32_t id);
+  void begin_segment(int32_t id);
+  void grow(int32_t id);
+  void adjust_window(int32_t id);
+  void note_motion(int32_t id);
+
+  State state_;
+  FrontEnd front_end_;
+  KeyframePose poses_;
+  LandmarkGrowth growth_;
+  Bootstrap bootstrap_;
+  PatchStore patches_;
+  Revive revive_;
+  MapAdjustment window_;
+  BackgroundAdjustment background_;
+  std::vector<int32_t> window_ids_;
+  MapperCounts counts_;
+  StartOutcome start_outcome_ = StartOutcome::kNotMoving;
+  int lost_in_row_ = 0;
+};
+
+}  // namespace unisim::geometric

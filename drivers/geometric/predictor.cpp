@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// The geometric predictor behind the table of drivers/predictor.h.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <new>
+#include <string>
+
+#include "drivers/geometric/config.hpp"
+#include "drivers/geometric/geometric.h"
+#include "drivers/geometric/mapper.hpp"
+#include "drivers/geometric/predictions.hpp"
+
+namespace unisim::geometric {
+namespace {
+
+constexpr double kStaticFlow = 0.0008;  // of the diagonal: less is a camera at rest
+constexpr double kStaticKept = 0.8;     // share of tracks that must agree
+constexpr double kUrgentKept = 0.4;     // share of tracks below which a keyframe is needed
+constexpr int32_t kMinSide = 64;        // pixels
+
+struct GeometricPredictor {
+  unisim_predictor table{};  // first: the table's address is the predictor's
+  unisim_geometric_config config{};
+  std::unique_ptr<Mapper> mapper;
+  std::unique_ptr<Predictions> predictions;
+  cv::Size size;
+  int32_t keyframes = 0;
+  int32_t static_frames = 0;
+  std::string message;
+};
+
+GeometricPredictor* self(unisim_predictor* predictor) {
+  return reinterpret_cast<GeometricPredictor*>(predictor);
+}
+
+/// Runs `body`; nothing thrown below crosses the C interface.
+template <typename Body>
+int guarded(unisim_predictor* predictor, Body&& body) {
+  GeometricPredictor* me = self(predictor);
+  try {
+    return body(me);
+  } catch (const std::bad_alloc&) {
+    me->message = "geometric: out of memory; lower max_keyframes or max_landmarks";
+  } catch (const std::exception& error) {
+    me->message = std::string("geometric: ") + error.what();
+  }
+  return UNISIM_PREDICTION_FAILED;
+}
+
+/// Makes the state for the first image. @return false with a message for an unusable image
+bool accept_image(GeometricPredictor* me, const unisim_image& image) {
+  if (image.data == nullptr || image.width < kMinSide || image.height < kMinSide) {
+    me->message = "geometric: image of " + std::to_string(image.width) + "x" +
+                  std::to_string(image.height) + " pixels is too small or empty; frame left out";
+    return false;
+  }
+  if (image.format != UNISIM_PIXEL_GRAY8 && image.format != UNISIM_PIXEL_BGR8) {
+    me->message = "geometric: pixel format " + std::to_string(image.format) +
+                  " is neither gray nor BGR; frame left out";
+    return false;
+  }
+  const cv::Size size(image.width, image.height);
+  if (!me->mapper) {
+    me->size = size;
+    me->mapper = std::make_unique<Mapper>(me->config, size);
+    me->predictions = std::make_unique<Predictions>(me->config, size);
+  }
+  if (size != me->size) {
+    me->message = "geometric: image size changed from " + std::to_string(me->size.width) + "x" +
+                  std::to_string(me->size.height) + " to " + std::to_string(size.width) + "x" +
+                  std::to_string(size.height) + "; frame left out";
+    return false;
+  }
+  return true;
+}
+
+int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motion* motion) {
+  *motion = {-1.0, -1.0, 0};
+  return guarded(predictor, [&](GeometricPredictor* me) {
+    if (!accept_image(me, frame->image)) return UNISIM_PREDICTION_REJECTED;
+    me->mapper->see(frame->image);
+    const TrackMotion moved = me->mapper->motion();
+    motion->tracked = moved.kept;
+    if (moved.displacement_px < 0) return UNISIM_PREDICTION_OK;
+    motion->flow = moved.displacement_px / std::hypot(me->size.width, me->size.height);
+    if (motion->flow < kStaticFlow && moved.kept > kStaticKept) ++me->static_frames;
+    if (moved.kept < kUrgentKept) motion->keyframe_advice = 1;
+    return UNISIM_PREDICTION_OK;
+  });
+}
+
+int keyframe(unisim_predictor* predictor, const unisim_frame*, int32_t id) {
+  return guarded(predictor, [&](GeometricPredictor* me) {
+    if (!me->mapper || id != me->keyframes) {
+      me->message = "geometric: keyframe " + std::to_string(id) + " came out of order";
+      return UNISIM_PREDICTION_FAILED;
+    }
+    ++me->keyframes;
+    if (me->mapper->add_keyframe(id)) me->predictions->state_improved();
+    return UNISIM_PREDICTION_OK;
+  });
+}
+
+int two_view(unisim_predictor* predictor, int32_t i, int32_t j, unisim_pair_prediction* out) {
+  return guarded(predictor, [&](GeometricPredictor* me) {
+    if (!me->mapper) return UNISIM_PREDICTION_PENDING;
+    const char* why = "";
+    const int status = me->predictions->pair(*me->mapper, i, j, out, &why);
+    if (status == UNISIM_PREDICTION_REJECTED) me->message = why;
+    return status;
+  });
+}
+
+int multi_view(unisim_predictor* predictor, const int32_t* ids, int32_t count,
+               unisim_window_prediction* out) {
+  return guarded(predictor, [&](GeometricPredictor* me) {
+    if (!me->mapper) return UNISIM_PREDICTION_PENDING;
+    const char* why = "";
+    const int status = me->predictions->window(me->mapper.get(), ids, count, out, &why);
+    if (status == UNISIM_PREDICTION_REJECTED) me->message = why;
+    return status;
+  });
+}
+
+int next_revision(unisim_predictor* predictor, unisim_window_revision* out) {
+  return guarded(predictor, [&](GeometricPredictor* me) {
+    if (!me->mapper) return UNISIM_PREDICTION_PENDING;
+    return me->predictions->revision(*me->mapper, out);
+  });
+}
+
+int frame_pose(unisim_predictor* predictor, unisim_frame_pose* out) {
+  return guarded(predictor, [&](GeometricPredictor* me) {
+    if (!me->mapper || !me->mapper->state().initialised) return UNISIM_PREDICTION_PENDING;
+    const LandmarkMap& map = me->mapper->state().map;
+    const Keyframe& newest = map.keyframe(map.end_id() - 1);
+    const FramePose found = me->mapper->frame_pose();
+    if (!found.good || !newest.posed) {
+      me->message = "geometric: frame has too few known landmarks in sight";
+      return UNISIM_PREDICTION_REJECTED;
+    }
+    out->T_kf_frame = relative_sim3(newest.pose, found.pose);
+    out->keyframe_id = newest.id;
+    return UNISIM_PREDICTION_OK;
+  });
+}
+
+int finish(unisim_predictor* predictor) {
+  return guarded(predictor, [&](GeometricPredictor* me) {
+    if (me->mapper && me->mapper->finish()) me->predictions->state_improved();
+    return UNISIM_PREDICTION_OK;
+  });
+}
+
+void info(unisim_predictor* predictor, unisim_predictor_info* out) {
+  const GeometricPredictor* me = self(predictor);
+  *out = {};
+  out->static_frames = me->static_frames;
+  if (!me->mapper) return;
+  const Intrinsics& intrinsics = me->mapper->state().intrinsics;
+  const MapperCounts& counts = me->mapper->counts();
+  out->initialised = counts.started > 0 ? 1 : 0;
+  out->restarts = counts.restarts;
+  out->rotation_only = counts.rotation_only;
+  out->state_bytes = me->mapper->bytes() + me->predictions->bytes();
+  if (out->initialised == 0) return;
+  out->focal_px = intrinsics.camera.focal_px;
+  out->focal_sigma_px = intrinsics.log_focal_sigma * intrinsics.camera.focal_px;
+  out->radial_k1 = intrinsics.camera.k1;
+}
+
+const char* message(unisim_predictor* predictor) { return self(predictor)->message.c_str(); }
+
+void destroy(unisim_predictor* predictor) { delete self(predictor); }
+
+}  // namespace
+}  // namespace unisim::geometric
+
+unisim_predictor* unisim_geometric_create(const unisim_geometric_config* config, char* message,
+                                          size_t capacity) {
+  namespace g = unisim::geometric;
+  std::string problem;
+  try {
+    auto made = std::make_unique<g::GeometricPredictor>();
+    problem = g::read_config(config, &made->config);
+    if (problem.empty()) {
+      made->table = {"geometric",      1,
+                     g::observe,       g::keyframe,
+                     g::two_view,      g::multi_view,
+                     g::next_revision, g::frame_pose,
+                     g::finish,        g::info,
+                     g::message,       g::destroy};
+      return &made.release()->table;
+    }
+  } catch (const std::exception& error) {
+    problem = std::string("geometric: ") + error.what();
+  }
+  if (message != nullptr && capacity > 0) std::snprintf(message, capacity, "%s", problem.c_str());
+  return nullptr;
+}
