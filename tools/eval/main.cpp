@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// unisim-eval: errors of trajectories and clouds against ground truth.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+
+#include "tools/eval/ate.hpp"
+#include "tools/eval/cloud_metrics.hpp"
+#include "tools/eval/print.hpp"
+#include "tools/eval/rpe.hpp"
+#include "tools/eval/top_view.hpp"
+
+namespace unisim::eval {
+namespace {
+
+constexpr int kExitUsage = 2;
+constexpr int kExitInput = 3;
+constexpr int kExitDevice = 4;
+
+struct Arguments {
+  std::string ground_truth, estimate, plot;
+  std::vector<std::string> trajectories;
+  Alignment alignment = Alignment::kSim3;
+  double max_dt_s = 0.02;
+  double max_distance = 0;
+  RpeStep step;
+  bool json = false;
+};
+
+void print(const Arguments& arguments, const Json& result) {
+  if (arguments.json) {
+    std::printf("%s\n", result.dump(1).c_str());
+  } else {
+    print_text(result, stdout);
+  }
+}
+
+int run_ate(const Arguments& arguments) {
+  const Trajectory truth = read_trajectory(arguments.ground_truth);
+  const Trajectory estimate = read_trajectory(arguments.estimate);
+  const Ate ate =
+      absolute_trajectory_error(truth, estimate, arguments.alignment, arguments.max_dt_s);
+  print(arguments, ate_json({truth, estimate, arguments.alignment, arguments.max_dt_s}, ate));
+  if (!arguments.plot.empty() && !write_top_view(arguments.plot, truth, ate)) {
+    std::fprintf(
+        stderr,
+        "unisim-eval: %s: cannot write the plot: give a .png in a folder that can be written\n",
+        arguments.plot.c_str());
+    return kExitDevice;
+  }
+  return 0;
+}
+
+int run_rpe(const Arguments& arguments) {
+  const Trajectory truth = read_trajectory(arguments.ground_truth);
+  const Trajectory estimate = read_trajectory(arguments.estimate);
+  const Rpe rpe =
+      relative_pose_error(truth, estimate, arguments.alignment, arguments.max_dt_s, arguments.step);
+  print(arguments,
+        rpe_json({truth, estimate, arguments.alignment, arguments.max_dt_s}, arguments.step, rpe));
+  return 0;
+}
+
+int run_cloud(const Arguments& arguments) {
+  Similarity T_truth_estimate;
+  if (!arguments.trajectories.empty()) {
+    const Trajectory truth = read_trajectory(arguments.trajectories[0]);
+    const Trajectory estimate = read_trajectory(arguments.trajectories[1]);
+    T_truth_estimate =
+        absolute_trajectory_error(truth, estimate, Alignment::kSim3, arguments.max_dt_s)
+            .T_truth_estimate;
+  }
+  const Cloud truth = read_ply(arguments.ground_truth);
+  const Cloud estimate = read_ply(arguments.estimate);
+  const CloudMetrics metrics =
+      compare_clouds(truth, estimate, T_truth_estimate, arguments.max_distance);
+  print(arguments, cloud_json(truth, estimate, T_truth_estimate, arguments.max_distance, metrics));
+  return 0;
+}
+
+void add_files(CLI::App* command, Arguments* arguments) {
+  command->add_option("GT", arguments->ground_truth, "ground truth")->required();
+  command->add_option("EST", arguments->estimate, "estimate")->required();
+  command->add_flag("--json", arguments->json, "print one JSON object");
+  command->add_option("--max-dt", arguments->max_dt_s, "largest time difference of a pair, seconds")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+}
+
+void add_alignment(CLI::App* command, Arguments* arguments) {
+  const std::map<std::string, Alignment> names = {
+      {"none", Alignment::kNone}, {"se3", Alignment::kSe3}, {"sim3", Alignment::kSim3}};
+  command->add_option("--align", arguments->alignment, "none, se3 or sim3 (default sim3)")
+      ->transform(CLI::CheckedTransformer(names).description(""));
+}
+
+void add_commands(CLI::App* app, Arguments* arguments) {
+  app->require_subcommand(1);
+  CLI::App* ate =
+      app->add_subcommand("ate", "absolute trajectory error of TUM, KITTI or EuRoC csv files");
+  add_files(ate, arguments);
+  add_alignment(ate, arguments);
+  ate->add_option("--plot", arguments->plot, "write both trajectories from above as PNG");
+
+  CLI::App* rpe = app->add_subcommand("rpe", "relative pose error over a step");
+  add_files(rpe, arguments);
+  add_alignment(rpe, arguments);
+  rpe->add_option("--delta", arguments->step.delta, "length of the step")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  const std::map<std::string, StepUnit> units = {
+      {"frames", StepUnit::kFrames}, {"m", StepUnit::kMetres}, {"s", StepUnit::kSeconds}};
+  rpe->add_option("--unit", arguments->step.unit, "frames, m or s (default frames)")
+      ->transform(CLI::CheckedTransformer(units).description(""));
+  rpe->add_flag("--all-pairs", arguments->step.all_pairs, "a step from every pose");
+
+  CLI::App* cloud =
+      app->add_subcommand("cloud", "accuracy, completeness and Chamfer distance of PLY files");
+  add_files(cloud, arguments);
+  cloud
+      ->add_option("--trajectories", arguments->trajectories,
+                   "GT EST: align the cloud as these trajectories align (sim3)")
+      ->expected(2);
+  cloud
+      ->add_option("--max-distance", arguments->max_distance,
+                   "larger distances count as this (0: no limit)")
+      ->check(CLI::NonNegativeNumber);
+}
+
+int run(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("Errors of a trajectory or a cloud against ground truth");
+  add_commands(&app, &arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::fprintf(stderr, "unisim-eval: %s: see unisim-eval --help\n", error.what());
+    return kExitUsage;
+  }
+  if (app.got_subcommand("ate")) return run_ate(arguments);
+  return app.got_subcommand("rpe") ? run_rpe(arguments) : run_cloud(arguments);
+}
+
+}  // namespace
+}  // namespace unisim::eval
+
+int main(int argc, char** argv) {
+  try {
+    return unisim::eval::run(argc, argv);
+  } catch (const unisim::eval::InputError& error) {
+    std::fprintf(stderr, "unisim-eval: %s\n", error.what());
+    return unisim::eval::kExitInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "unisim-eval: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// What unisim-eval prints: the protocol, then the figures, as text or JSON.
+#include "tools/eval/print.hpp"
+
+namespace unisim::eval {
+namespace {
+
+void add_statistics(const Statistics& s, Json* out) {
+  (*out)["rmse"] = s.rmse;
+  (*out)["mean"] = s.mean;
+  (*out)["median"] = s.median;
+  (*out)["std"] = s.std;
+  (*out)["min"] = s.min;
+  (*out)["max"] = s.max;
+  (*out)["sse"] = s.sse;
+}
+
+Json statistics_json(const Statistics& s, const char* unit) {
+  Json out = {{"unit", unit}};
+  add_statistics(s, &out);
+  return out;
+}
+
+Json side_json(const Trajectory& trajectory) {
+  return {{"file", trajectory.name},
+          {"format", trajectory.format},
+          {"poses", trajectory.poses.size()},
+          {"skipped_lines", trajectory.skipped}};
+}
+
+Json protocol_json(const Protocol& protocol, size_t associated) {
+  return {{"ground_truth", side_json(protocol.ground_truth)},
+          {"estimate", side_json(protocol.estimate)},
+          {"alignment", alignment_name(protocol.alignment)},
+          {"max_dt_s", protocol.max_dt_s},
+          {"associated", associated}};
+}
+
+Json similarity_json(const Similarity& T) {
+  Json rows = Json::array();
+  for (int i = 0; i < 3; ++i) rows.push_back({T.R(i, 0), T.R(i, 1), T.R(i, 2)});
+  return {{"rotation", rows}, {"translation", {T.t.x(), T.t.y(), T.t.z()}}, {"scale", T.s}};
+}
+
+bool is_figure(const Json& value) { return value.is_number_float(); }
+
+// "name value" lines; objects with figures of their own get their name in front.
+void print_figures(const Json& object, const std::string& prefix, std::FILE* out) {
+  const std::string unit = object.value("unit", "");
+  for (const auto& [name, value] : object.items()) {
+    const std::string label = prefix + name;
+    const bool has_unit = name != "scale" && name != "sse";
+    if (is_figure(value)) {
+      std::fprintf(out, "%-20s %.9f%s%s\n", label.c_str(), value.get<double>(), has_unit ? " " : "",
+                   has_unit ? unit.c_str() : "");
+    } else if (value.is_object() && value.contains("rmse")) {
+      print_figures(value, label + " ", out);
+    }
+  }
+}
+
+void print_side(const char* label, const Json& side, std::FILE* out) {
+  if (!side.contains("format")) {
+    std::fprintf(out, "%-20s %s (%zu points, %zu not finite)\n", label,
+                 side["file"].get<std::string>().c_str(), side["points"].get<size_t>(),
+                 side["skipped_points"].get<size_t>());
+    return;
+  }
+  std::fprintf(out, "%-20s %s (%s, %zu poses, %zu lines skipped)\n", label,
+               side["file"].get<std::string>().c_str(), side["format"].get<std::string>().c_str(),
+               side["poses"].get<size_t>(), side["skipped_lines"].get<size_t>());
+}
+
+}  // namespace
+
+Json ate_json(const Protocol& protocol, const Ate& ate) {
+  Json out = {
+      {"schema", 1}, {"metric", "ate"}, {"protocol", protocol_json(protocol, ate.pairs.size())}};
+  out["unit"] = "m";
+  add_statistics(ate.error, &out);
+  out["scale"] = ate.T_truth_estimate.s;
+  out["T_truth_estimate"] = similarity_json(ate.T_truth_estimate);
+  return out;
+}
+
+Json rpe_json(const Protocol& protocol, const RpeStep& step, const Rpe& rpe) {
+  Json out = {
+      {"schema", 1}, {"metric", "rpe"}, {"protocol", protocol_json(protocol, rpe.associated)}};
+  out["protocol"]["delta"] = step.delta;
+  out["protocol"]["delta_unit"] = step_unit_name(step.unit);
+  out["protocol"]["steps"] = step.all_pairs ? "all" : "consecutive";
+  out["pairs"] = rpe.time_s.size();
+  out["translation"] = statistics_json(rpe.translation, "m");
+  out["rotation"] = statistics_json(rpe.rotation_deg, "deg");
+  out["scale"] = rpe.T_truth_estimate.s;
+  return out;
+}
+
+Json cloud_json(const Cloud& ground_truth, const Cloud& estimate,
+                const Similarity& T_truth_estimate, double max_distance,
+                const CloudMetrics& metrics) {
+  const auto side = [](const Cloud& cloud) -> Json {
+    return {
+        {"file", cloud.name}, {"points", cloud.points.size()}, {"skipped_points", cloud.skipped}};
+  };
+  Json out = {{"schema", 1}, {"metric", "cloud"}};
+  out["protocol"] = {{"ground_truth", side(ground_truth)},
+                     {"estimate", side(estimate)},
+                     {"T_truth_estimate", similarity_json(T_truth_estimate)},
+                     {"distance", "nearest neighbour, root mean square; chamfer: mean of the two"},
+                     {"max_distance", max_distance},
+                     {"beyond_max_distance", metrics.beyond}};
+  out["unit"] = "m";
+  out["accuracy"] = metrics.accuracy.rmse;
+  out["completeness"] = metrics.completeness.rmse;
+  out["chamfer"] = metrics.chamfer;
+  out["accuracy_detail"] = statistics_json(metrics.accuracy, "m");
+  out["completeness_detail"] = statistics_json(metrics.completeness, "m");
+  return out;
+}
+
+void print_text(const Json& result, std::FILE* out) {
+  const Json& protocol = result["protocol"];
+  std::fprintf(out, "%-20s %s\n", "metric", result["metric"].get<std::string>().c_str());
+  print_side("ground truth", protocol["ground_truth"], out);
+  print_side("estimate", protocol["estimate"], out);
+  for (const auto& [name, value] : protocol.items()) {
+    if (value.is_object()) continue;
+    std::fprintf(out, "%-20s %s\n", name.c_str(),
+                 value.is_string() ? value.get<std::string>().c_str() : value.dump().c_str());
+  }
+  if (result.contains("pairs")) {
+    std::fprintf(out, "%-20s %zu\n", "pairs", result["pairs"].get<size_t>());
+  }
+  print_figures(result, "", out);
+}
+
+}  // namespace unisim::eval

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What unisim-eval prints: the protocol, then the figures, as text or JSON.
+#pragma once
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tools/eval/ate.hpp"
+#include "tools/eval/cloud_metrics.hpp"
+#include "tools/eval/rpe.hpp"
+
+namespace unisim::eval {
+
+using Json = nlohmann::ordered_json;
+
+/// How two trajectories were compared.
+struct Protocol {
+  const Trajectory& ground_truth;
+  const Trajectory& estimate;
+  Alignment alignment;
+  double max_dt_s;
+};
+
+Json ate_json(const Protocol& protocol, const Ate& ate);
+Json rpe_json(const Protocol& protocol, const RpeStep& step, const Rpe& rpe);
+Json cloud_json(const Cloud& ground_truth, const Cloud& estimate,
+                const Similarity& T_truth_estimate, double max_distance,
+                const CloudMetrics& metrics);
+
+/// The same as lines for people: the protocol on top, figures with their units below.
+void print_text(const Json& result, std::FILE* out);
+
+}  // namespace unisim::eval
