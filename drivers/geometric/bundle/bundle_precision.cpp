@@ -14,7 +14,7 @@ namespace {
 
 // Just enough damping to factorise a system whose scale is free; the projection takes its effect
 // out.
-constexpr double kGaugeLambda = 1e-8;
+constexpr double kGaugeLambda = 1e-10;
 // Median of the norm of a two-dimensional unit normal variable.
 constexpr double kRayleighMedian = 1.1774;
 // Precision below which pixel positions are never trusted, scaled pixels.
