@@ -307,3 +307,8 @@ unisim_predictor* unisim_recorded_open(const char* path, char* message, size_t m
     return nullptr;
   }
 }
+
+const char* unisim_recorded_origin(const unisim_predictor* recorded) {
+  const auto* predictor = static_cast<const unisim::recorded::Recorded*>(recorded);
+  return predictor->reader.info().predictor.c_str();
+}

@@ -48,6 +48,11 @@ const char* unisim_recorder_problem(const unisim_predictor* recorder);
  *  @return the predictor, NULL when the file is unreadable, damaged or of a newer version */
 unisim_predictor* unisim_recorded_open(const char* path, char* message, size_t message_size);
 
+/** Name of the predictor whose answers the file holds ("geometric"), "" if it does not say.
+ *  @param recorded of unisim_recorded_open()
+ *  @return valid until destroy() */
+const char* unisim_recorded_origin(const unisim_predictor* recorded);
+
 #ifdef __cplusplus
 }
 #endif

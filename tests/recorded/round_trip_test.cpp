@@ -56,6 +56,7 @@ TEST_CASE("a recorded run repeats every answer at its time, bit for bit") {
   const Transcript expected = record_scripted(folder.file("run.usr"));
   const Owned recorded = open_recorded(folder.file("run.usr"));
   CHECK(recorded->needs_images == 0);
+  CHECK(std::string(unisim_recorded_origin(recorded.get())) == "scripted");
   const Transcript repeated = run_predictor(recorded.get());
   CHECK(repeated.answers == expected.answers);
   CHECK(repeated.messages == expected.messages);

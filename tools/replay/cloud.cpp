@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+// The fused point cloud of a run.
+#include "tools/replay/cloud.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace unisim::replay {
+namespace {
+
+bool measured(const unisim_depth_map& map, size_t pixel) {
+  return std::isfinite(map.depth[pixel]) && map.depth[pixel] > 0.0F;
+}
+
+float confidence_of(const unisim_depth_map& map, size_t pixel) {
+  return map.confidence != nullptr ? map.confidence[pixel] : 1.0F;
+}
+
+size_t pixel_at(const unisim_depth_map& map, int x, int y) {
+  return static_cast<size_t>(y) * static_cast<size_t>(map.width) + static_cast<size_t>(x);
+}
+
+/// Every step-th pixel of a map is kept, so that it is at most `columns` wide.
+int step_of(const unisim_depth_map& map, int columns) {
+  return std::max(1, (map.width + columns - 1) / columns);
+}
+
+double mean_confidence(const unisim_depth_map& map) {
+  const size_t pixels = static_cast<size_t>(map.width) * static_cast<size_t>(map.height);
+  double sum = 0.0;
+  size_t count = 0;
+  for (size_t pixel = 0; pixel < pixels; ++pixel) {
+    if (!measured(map, pixel)) continue;
+    sum += static_cast<double>(confidence_of(map, pixel));
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
+/// Mean of every second pixel of a box, as red green blue.
+std::array<uint8_t, 3> mean_colour(const unisim_image& image, int x0, int x1, int y0, int y1) {
+  std::array<int, 3> sum{};
+  int count = 0;
+  for (int y = y0; y < y1; y += 2) {
+    const uint8_t* row = image.data + static_cast<ptrdiff_t>(y) * image.stride;
+    for (int x = x0; x < x1; x += 2) {
+      const uint8_t* pixel = row + static_cast<ptrdiff_t>(x) * image.format;
+      for (size_t c = 0; c < 3; ++c) sum[c] += pixel[image.format == UNISIM_PIXEL_BGR8 ? 2 - c : 0];
+      ++count;
+    }
+  }
+  std::array<uint8_t, 3> mean{};
+  for (size_t c = 0; c < 3; ++c) mean[c] = static_cast<uint8_t>(sum[c] / std::max(count, 1));
+  return mean;
+}
+
+/// Segment with the most keyframes that have a pose.
+int32_t longest_segment(const std::vector<unisim_pose>& poses) {
+  std::map<int32_t, int> lengths;
+  for (const unisim_pose& pose : poses) lengths[pose.segment] += pose.confidence > 0 ? 1 : 0;
+  const auto longest =
+      std::max_element(lengths.begin(), lengths.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  return longest != lengths.end() ? longest->first : 0;
+}
+
+/// q p q^-1 for a unit quaternion x y z w.
+std::array<double, 3> rotate(const double q[4], const std::array<double, 3>& p) {
+  const std::array<double, 3> t = {2 * (q[1] * p[2] - q[2] * p[1]), 2 * (q[2] * p[0] - q[0] * p[2]),
+                                   2 * (q[0] * p[1] - q[1] * p[0])};
+  return {p[0] + q[3] * t[0] + q[1] * t[2] - q[2] * t[1],
+          p[1] + q[3] * t[1] + q[2] * t[0] - q[0] * t[2],
+          p[2] + q[3] * t[2] + q[0] * t[1] - q[1] * t[0]};
+}
+
+template <class T>
+void put(std::string* bytes, const T& value) {
+  char raw[sizeof value];
+  std::memcpy(raw, &value, sizeof value);
+  bytes->append(raw, sizeof value);
+}
+
+std::string ply_header(int64_t points, int32_t segment) {
+  std::ostringstream text;
+  text << "ply\nformat binary_little_endian 1.0\n"
+       << "comment libunisim map, segment " << segment << ", frame and scale of trajectory.tum\n"
+       << "element vertex " << points << "\n"
+       << "property float x\nproperty float y\nproperty float z\n"
+       << "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+       << "property float confidence\nend_header\n";
+  return text.str();
+}
+
+}  // namespace
+
+CloudPoses read_cloud_poses(const unisim_session* session) {
+  CloudPoses poses;
+  unisim_session_info info{};
+  info.struct_size = sizeof info;
+  if (unisim_get_info(session, &info) != UNISIM_OK) return poses;
+  for (int32_t id = 0; id < info.keyframes; ++id) {
+    unisim_pose pose{};
+    pose.struct_size = sizeof pose;
+    if (unisim_get_pose(session, id, &pose) == UNISIM_OK) poses.keyframes.push_back(pose);
+  }
+  for (int32_t id = 0; id < info.submaps + info.loops; ++id) {
+    unisim_submap_info submap{};
+    submap.struct_size = sizeof submap;
+    const bool known = unisim_get_submap(session, id, &submap) == UNISIM_OK;
+    poses.submap_scale.push_back(known ? submap.T_world_submap.s : 0.0);
+  }
+  return poses;
+}
+
+void Cloud::on_keyframe(int32_t id, const unisim_frame& frame) {
+  const auto at = static_cast<size_t>(id);
+  if (views_.size() <= at) views_.resize(at + 1);
+  View& view = views_[at];
+  const unisim_image& image = frame.image;
+  view.width = image.width;
+  view.height = image.height;
+  if (image.data == nullptr || image.width <= 0 || image.height <= 0) return;
+  view.columns = std::min(kGridWidth, static_cast<int>(image.width));
+  view.rows = std::max(1, view.columns * image.height / image.width);
+  view.colours.clear();
+  for (int row = 0; row < view.rows; ++row) {
+    for (int column = 0; column < view.columns; ++column) {
+      const int x0 = column * image.width / view.columns;
+      const int x1 = (column + 1) * image.width / view.columns;
+      const int y0 = row * image.height / view.rows;
+      const int y1 = (row + 1) * image.height / view.rows;
+      view.colours.push_back(mean_colour(image, x0, x1, y0, y1));
+    }
+  }
+}
+
+void Cloud::on_window(int32_t submap_id, const unisim_window_prediction& window) {
+  if (window.focal_px <= 0.0) return;
+  for (int32_t k = 0; k < window.count; ++k) {
+    const auto id = static_cast<size_t>(window.keyframe_ids[k]);
+    if (id >= views_.size() || views_[id].width <= 0.0) continue;
+    View& view = views_[id];
+    const double sigma =
+        window.center_sigma > 0.0 ? window.center_sigma : std::numeric_limits<double>::infinity();
+    const double confidence = mean_confidence(window.depth[k]);
+    const bool better = view.submap_id < 0 || sigma < view.center_sigma ||
+                        (sigma == view.center_sigma && confidence > view.mean_confidence);
+    if (!better) continue;
+    view.submap_id = submap_id;
+    view.index = k;
+    view.center_sigma = sigma;
+    view.mean_confidence = confidence;
+    take_depth(window.depth[k], window.focal_px, &view);
+  }
+}
+
+float Cloud::least_confidence(const unisim_depth_map& map, int step) const {
+  std::vector<float> confidences;
+  for (int y = step / 2; y < map.height; y += step) {
+    for (int x = step / 2; x < map.width; x += step) {
+      const size_t pixel = pixel_at(map, x, y);
+      if (measured(map, pixel)) confidences.push_back(confidence_of(map, pixel));
+    }
+  }
+  const auto least = static_cast<float>(options_.min_confidence);
+  if (confidences.empty()) return least;
+  const auto drop =
+      static_cast<ptrdiff_t>(options_.confidence_drop * static_cast<double>(confidences.size()));
+  std::nth_element(confidences.begin(), confidences.begin() + drop, confidences.end());
+  return std::max(least, confidences[static_cast<size_t>(drop)]);
+}
+
+void Cloud::take_depth(const unisim_depth_map& map, double focal_px, View* view) const {
+  view->points.clear();
+  const int step = step_of(map, kGridWidth);
+  const float least = least_confidence(map, step);
+  for (int row = step / 2; row < map.height; row += step) {
+    for (int column = step / 2; column < map.width; column += step) {
+      const size_t pixel = pixel_at(map, column, row);
+      const float confidence = confidence_of(map, pixel);
+      if (!measured(map, pixel) || confidence < least) continue;
+      // Places in the image as shares of its sides: depth grids have their own pixels.
+      const double x = (column + 0.5) / map.width;
+      const double y = (row + 0.5) / map.height;
+      view->points.push_back({static_cast<float>((x - 0.5) * view->width / focal_px),
+                              static_cast<float>((y - 0.5) * view->height / focal_px),
+                              map.depth[pixel], confidence, colour_at(*view, x, y)});
+    }
+  }
+  view->points.shrink_to_fit();
+}
+
+Cloud::Rgb Cloud::colour_at(const View& view, double x, double y) {
+  if (view.colours.empty()) return {128, 128, 128};
+  const int column = std::min(static_cast<int>(x * view.columns), view.columns - 1);
+  const int row = std::min(static_cast<int>(y * view.rows), view.rows - 1);
+  return view.colours[static_cast<size_t>(row * view.columns + column)];
+}
+
+void Cloud::on_revision(int32_t submap_id, const unisim_window_revision& revision) {
+  for (View& view : views_) {
+    if (view.submap_id != submap_id || view.index >= revision.count) continue;
+    const double ratio = std::exp(revision.log_depth_ratio[view.index]);
+    for (Point& point : view.points) {
+      point.depth = static_cast<float>(static_cast<double>(point.depth) * ratio);
+    }
+    if (revision.center_sigma > 0.0) view.center_sigma = revision.center_sigma;
+  }
+}
+
+std::vector<Cloud::PlacedView> Cloud::place(const CloudPoses& poses, int32_t segment) const {
+  std::vector<PlacedView> placed;
+  for (const unisim_pose& pose : poses.keyframes) {
+    const auto id = static_cast<size_t>(pose.keyframe_id);
+    if (pose.confidence == 0 || pose.segment != segment || id >= views_.size()) continue;
+    const auto submap = static_cast<size_t>(views_[id].submap_id);
+    if (views_[id].submap_id < 0 || submap >= poses.submap_scale.size()) continue;
+    const double scale = poses.submap_scale[submap];
+    if (scale > 0.0) placed.push_back({&views_[id], &pose, scale});
+  }
+  return placed;
+}
+
+std::string Cloud::vertices(const PlacedView& placed, double radial_k1) {
+  std::string bytes;
+  const unisim_sim3& T_world_kf = placed.pose->T_world_kf;
+  for (const Point& point : placed.view->points) {
+    const auto x = static_cast<double>(point.x);
+    const auto y = static_cast<double>(point.y);
+    const double z = static_cast<double>(point.depth) * placed.scale;
+    const double side = (1.0 + radial_k1 * (x * x + y * y)) * z;
+    const auto turned = rotate(T_world_kf.q, {x * side, y * side, z});
+    for (size_t axis = 0; axis < 3; ++axis) {
+      put(&bytes, static_cast<float>(turned[axis] + T_world_kf.t[axis]));
+    }
+    for (const uint8_t channel : point.colour) put(&bytes, channel);
+    put(&bytes, point.confidence);
+  }
+  return bytes;
+}
+
+int64_t Cloud::write(const std::filesystem::path& path, const CloudPoses& poses,
+                     double radial_k1) const {
+  const int32_t segment = longest_segment(poses.keyframes);
+  const std::vector<PlacedView> placed = place(poses, segment);
+  int64_t count = 0;
+  for (const PlacedView& view : placed) count += static_cast<int64_t>(view.view->points.size());
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file << ply_header(count, segment);
+  for (const PlacedView& view : placed) file << vertices(view, radial_k1);
+  file.close();
+  if (!file)
+    throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(errno));
+  return count;
+}
+
+}  // namespace unisim::replay
