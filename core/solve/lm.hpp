@@ -65,10 +65,11 @@ class LevenbergMarquardt {
   const BlockPattern& pattern() const { return pattern_; }
 
  private:
-  Status prepare(const Graph& graph, LmReport* report);
-  bool find_step(const Graph& graph, const LmOptions& options, double lambda, LmReport* report);
+  Status prepare(const Graph& graph);
+  LmStop iterate(Graph* graph, const LmOptions& options, LmReport* report);
+  bool find_step(const LmOptions& options, double lambda);
   double predicted_decrease(double lambda) const;
-  void apply_step(Graph* graph);
+  bool apply_step(Graph* graph);
   void restore_poses(Graph* graph) const;
 
   BlockPattern pattern_;
@@ -77,6 +78,7 @@ class LevenbergMarquardt {
   Span<BlockVector> step_;
   Span<Sim3> saved_;
   double step_size_ = 0.0;           // largest component of step_
+  double shortened_ = 1.0;           // factor by which step_ is shorter than the solution
   uint64_t structure_revision_ = 0;  // of the analysed graph
   uint64_t undamped_revision_ = 0;   // of the graph whose H the undamped factor holds
 };

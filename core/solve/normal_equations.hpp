@@ -28,9 +28,9 @@ class NormalEquations {
   Span<const BlockVector> gradient() const { return {gradient_.data(), columns_}; }
 
  private:
-  struct Target;
   double add_pose_edge(const Graph& graph, const BlockPattern& pattern, int32_t id);
   double add_scale_edge(const Graph& graph, const BlockPattern& pattern, int32_t id);
+  void clear(const BlockPattern& pattern);
 
   int32_t columns_ = 0;
   Span<Block> diagonal_;

@@ -10,12 +10,12 @@ namespace unisim {
 
 /// int32 of workspace minimum_degree_order() needs.
 constexpr int64_t minimum_degree_workspace(int64_t nodes, int64_t pairs) {
-  return 2 * pairs + 13 * nodes + 16;
+  return 2 * pairs + 14 * nodes;
 }
 
 /// Order the nodes of an undirected graph so that Cholesky factorisation in this order fills
 /// little: minimum degree on the quotient graph with approximate external degrees, element
-/// absorption and merging of indistinguishable nodes. Deterministic; ties go to the lower number.
+/// absorption and merging of indistinguishable nodes, then put in postorder. Deterministic.
 ///
 /// @param adjacency_start nodes + 1 offsets into adjacency
 /// @param adjacency       neighbours of each node, both directions, no self loops, no doubles

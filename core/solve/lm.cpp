@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Levenberg-Marquardt on a Sim(3) graph.
+#include "core/solve/lm.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unisim {
+namespace {
+
+constexpr double kLowestLambda = 1e-12;
+constexpr double kHighestLambda = 1e12;
+constexpr int kLogScale = 6;
+
+bool valid_options(const LmOptions& o) {
+  return o.max_iterations >= 0 && o.initial_lambda > 0.0 && o.initial_lambda <= kHighestLambda &&
+         o.cost_tolerance >= 0.0 && o.step_tolerance >= 0.0 && o.max_log_scale_step > 0.0;
+}
+
+// Nielsen's rule: damping falls smoothly with the gain ratio rho, grows ever faster on failures.
+struct Damping {
+  double lambda;
+  double growth = 2.0;
+
+  void accept(double rho) {
+    const double m = 2.0 * rho - 1.0;
+    lambda = std::max(kLowestLambda, lambda * std::max(1.0 / 3.0, 1.0 - m * m * m));
+    growth = 2.0;
+  }
+  void reject() {
+    lambda *= growth;
+    growth *= 2.0;
+  }
+  bool exhausted() const { return !(lambda <= kHighestLambda); }
+};
+
+}  // namespace
+
+LevenbergMarquardt::LevenbergMarquardt(Arena& arena, const SolverCapacity& capacity)
+    : pattern_(arena, capacity),
+      equations_(arena, capacity),
+      cholesky_(arena, capacity),
+      step_(arena.take<BlockVector>(capacity.nodes)),
+      saved_(arena.take<Sim3>(capacity.nodes)) {}
+
+Status LevenbergMarquardt::prepare(const Graph& graph) {
+  if (graph.structure_revision() == structure_revision_) return Status::kOk;
+  structure_revision_ = 0;
+  undamped_revision_ = 0;
+  Status status = pattern_.build(graph);
+  if (!is_ok(status)) return status;
+  status = cholesky_.analyze(pattern_.column_start(), pattern_.rows());
+  if (is_ok(status)) structure_revision_ = graph.structure_revision();
+  return status;
+}
+
+Status LevenbergMarquardt::optimize(Graph* graph, const LmOptions& options, LmReport* report) {
+  *report = LmReport();
+  if (!valid_options(options)) return Status::kInvalidArgument;
+  if (graph->edge_count() == 0) return Status::kNotReady;
+  const Status status = prepare(*graph);
+  report->factor_blocks = cholesky_.needed_blocks();
+  if (!is_ok(status)) return status;
+  undamped_revision_ = 0;
+  report->initial_cost = equations_.linearize(*graph, pattern_);
+  report->final_cost = report->initial_cost;
+  if (!std::isfinite(report->initial_cost)) {
+    report->stop = LmStop::kNoDescent;
+    return Status::kNumerical;
+  }
+  report->stop = iterate(graph, options, report);
+  const bool good = report->stop == LmStop::kConverged || report->stop == LmStop::kBudget;
+  return good ? Status::kOk : Status::kNumerical;
+}
+
+// The trial is linearised at once: an accepted step, the usual case, then needs no pass of its own
+// for the cost.
+LmStop LevenbergMarquardt::iterate(Graph* graph, const LmOptions& options, LmReport* report) {
+  Damping damping{options.initial_lambda};
+  bool factored = true;
+  for (; report->iterations < options.max_iterations; ++report->iterations) {
+    report->lambda = damping.lambda;
+    if (damping.exhausted()) return factored ? LmStop::kNoDescent : LmStop::kNotPositive;
+    factored = find_step(options, damping.lambda);
+    if (!factored) {
+      report->bad_node = pattern_.node_of_column(std::max(cholesky_.bad_column(), 0));
+      damping.reject();
+      continue;
+    }
+    const double cost = report->final_cost;
+    const double predicted = predicted_decrease(damping.lambda);
+    const bool moved = apply_step(graph);
+    const double trial = moved ? equations_.linearize(*graph, pattern_) : cost;
+    if (moved && std::isfinite(trial) && trial <= cost) {
+      damping.accept(predicted > 0.0 ? (cost - trial) / predicted : 1.0);
+      report->final_cost = trial;
+      ++report->accepted;
+      if (cost - trial <= options.cost_tolerance * cost || step_size_ <= options.step_tolerance) {
+        ++report->iterations;
+        return LmStop::kConverged;
+      }
+      continue;
+    }
+    restore_poses(graph);
+    // Steps this small fail by roundoff only: the cost has no lower digits left.
+    if (step_size_ <= options.step_tolerance) {
+      ++report->iterations;
+      return LmStop::kConverged;
+    }
+    equations_.linearize(*graph, pattern_);
+    damping.reject();
+  }
+  return factored ? LmStop::kBudget : LmStop::kNotPositive;
+}
+
+bool LevenbergMarquardt::find_step(const LmOptions& options, double lambda) {
+  if (!is_ok(cholesky_.factorize(equations_.H(pattern_), lambda))) return false;
+  const Span<BlockVector> step = step_.subspan(0, pattern_.columns());
+  const Span<const BlockVector> g = equations_.gradient();
+  for (int32_t j = 0; j < step.size(); ++j) {
+    for (int d = 0; d < kBlockRows; ++d) step[j].v[d] = -g[j].v[d];
+  }
+  cholesky_.solve(step);
+  double largest = 0.0;
+  double log_scale = 0.0;
+  bool finite = true;
+  for (const BlockVector& dx : step) {
+    for (int d = 0; d < kTangentDim; ++d) {
+      finite = finite && std::isfinite(dx.v[d]);
+      largest = std::max(largest, std::abs(dx.v[d]));
+    }
+    log_scale = std::max(log_scale, std::abs(dx.v[kLogScale]));
+  }
+  if (!finite) return false;
+  shortened_ = std::min(1.0, options.max_log_scale_step / log_scale);
+  for (BlockVector& dx : step) {
+    for (double& value : dx.v) value *= shortened_;
+  }
+  step_size_ = shortened_ * largest;
+  return true;
+}
+
+// -g' dx - dx' H dx / 2. The solution d fulfils (H + lambda diag(H)) d = -g, so that for dx = k d
+// the product H dx is not needed: dx' H dx = -k g' dx - lambda dx' diag(H) dx.
+double LevenbergMarquardt::predicted_decrease(double lambda) const {
+  const Span<const BlockVector> g = equations_.gradient();
+  const Span<const Block> diagonal = equations_.H(pattern_).diagonal;
+  double along_gradient = 0.0;
+  double damping = 0.0;
+  for (int32_t j = 0; j < pattern_.columns(); ++j) {
+    const BlockVector& dx = step_[j];
+    for (int d = 0; d < kTangentDim; ++d) {
+      along_gradient -= g[j].v[d] * dx.v[d];
+      damping += lambda * diagonal[j].at(d, d) * dx.v[d] * dx.v[d];
+    }
+  }
+  return (1.0 - 0.5 * shortened_) * along_gradient + 0.5 * damping;
+}
+
+// False when a pose would leave the range of numbers; poses are then partly moved.
+bool LevenbergMarquardt::apply_step(Graph* graph) {
+  for (int32_t j = 0; j < pattern_.columns(); ++j) {
+    saved_[j] = graph->pose(pattern_.node_of_column(j));
+  }
+  for (int32_t j = 0; j < pattern_.columns(); ++j) {
+    const Sim3 moved = retract(saved_[j], Eigen::Map<const Vec7>(step_[j].v));
+    if (!is_ok(graph->set_pose(pattern_.node_of_column(j), moved))) return false;
+  }
+  return true;
+}
+
+void LevenbergMarquardt::restore_poses(Graph* graph) const {
+  for (int32_t j = 0; j < pattern_.columns(); ++j) {
+    const Status status = graph->set_pose(pattern_.node_of_column(j), saved_[j]);
+    UNISIM_CHECK(is_ok(status));
+    static_cast<void>(status);
+  }
+}
+
+Status LevenbergMarquardt::marginal_covariance(const Graph& graph, int32_t node, Mat7* covariance) {
+  if (!graph.has_node(node) || graph.node(node).fixed) return Status::kInvalidArgument;
+  Status status = prepare(graph);
+  if (!is_ok(status)) return status;
+  if (undamped_revision_ != graph.revision()) {
+    undamped_revision_ = 0;
+    equations_.linearize(graph, pattern_);
+    status = cholesky_.factorize(equations_.H(pattern_), 0.0);
+    if (!is_ok(status)) return status;
+    undamped_revision_ = graph.revision();
+  }
+  cholesky_.inverse_block(pattern_.column_of_node(node), step_, covariance);
+  return Status::kOk;
+}
+
+}  // namespace unisim
