@@ -1,1 +1,33 @@
 # SPDX-License-Identifier: MIT
+# Installed: libunisim (shared, static), its two headers, the CMake package, unisim.pc, the programs.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS unisim unisim_static EXPORT unisim-targets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(FILES
+  ${PROJECT_SOURCE_DIR}/capi/include/unisim/unisim.h
+  ${PROJECT_BINARY_DIR}/capi/include/unisim/version.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/unisim)
+
+set(unisim_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/unisim)
+install(EXPORT unisim-targets NAMESPACE unisim:: DESTINATION ${unisim_package_dir})
+configure_package_config_file(
+  ${CMAKE_CURRENT_LIST_DIR}/unisim-config.cmake.in ${PROJECT_BINARY_DIR}/unisim-config.cmake
+  INSTALL_DESTINATION ${unisim_package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/unisim-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${PROJECT_BINARY_DIR}/unisim-config.cmake ${PROJECT_BINARY_DIR}/unisim-config-version.cmake
+  DESTINATION ${unisim_package_dir})
+
+file(RELATIVE_PATH UNISIM_PC_TO_PREFIX
+  ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+configure_file(${CMAKE_CURRENT_LIST_DIR}/unisim.pc.in ${PROJECT_BINARY_DIR}/unisim.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/unisim.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+foreach(program unisim-replay unisim-eval unisim-synth unisim-arena)
+  if(TARGET ${program})
+    install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  endif()
+endforeach()

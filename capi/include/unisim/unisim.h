@@ -3,9 +3,9 @@
  *  Visual SLAM back end on Sim(3) in memory stated at creation.
  *
  *  A session takes keyframes and the predictions made on them (two-view, multi-view), joins them in
- *  one factor graph on Sim(3) and gives back poses. It never calls a network, a camera, a clock, the
- *  heap or a thread: unisim_next_request() says which prediction it wants next, the host makes it
- *  when and where it likes and hands it in.
+ *  one factor graph on Sim(3) and gives back poses. It never calls a network, a camera, a clock,
+ * the heap or a thread: unisim_next_request() says which prediction it wants next, the host makes
+ * it when and where it likes and hands it in.
  *
  *  Conventions, the same everywhere:
  *  - A similarity acts as  p' = s R p + t.  T_a_b takes points of frame b to frame a.
@@ -14,10 +14,11 @@
  *  - Quaternions are x y z w. Lengths have no unit: one camera alone does not see scale. Time is in
  *    nanoseconds of the host's choice of clock. Indices start at 0.
  *  - Every struct with `struct_size` is filled by its caller with sizeof the struct. A size below
- *    that of the first release is UNISIM_ERR_ABI_MISMATCH; a smaller one than today's takes defaults
- *    for the missing tail; a larger one is accepted when the unknown tail is all zero.
+ *    that of the first release is UNISIM_ERR_ABI_MISMATCH; a smaller one than today's takes
+ * defaults for the missing tail; a larger one is accepted when the unknown tail is all zero.
  *  - Pointers handed in are read during the call and not kept, the arena excepted.
- *  - One session, one thread at a time; different sessions are independent; there is no global state.
+ *  - One session, one thread at a time; different sessions are independent; there is no global
+ * state.
  *  - On any error the session is as it was before the call.
  */
 #ifndef UNISIM_UNISIM_H
@@ -43,13 +44,15 @@ extern "C" {
 /** Result of a call. The numbers never move; 0 is success. */
 typedef int32_t unisim_status;
 #define UNISIM_OK 0
-#define UNISIM_ERR_INVALID_ARGUMENT 1 /**< NULL, non-finite number, unknown id: the caller's mistake */
-#define UNISIM_ERR_CAPACITY 2         /**< a declared capacity or the caller's buffer is too small */
-#define UNISIM_ERR_OUT_OF_MEMORY 3    /**< the arena is smaller than unisim_arena_size() says */
-#define UNISIM_ERR_NOT_READY 4        /**< nothing to do or to give yet */
-#define UNISIM_ERR_NUMERICAL 5        /**< no descent or not positive definite; poses stay as they were */
-#define UNISIM_ERR_INTERNAL 6         /**< broken invariant; every later call until reset says the same */
-#define UNISIM_ERR_ABI_MISMATCH 7     /**< struct_size is not one this library knows */
+#define UNISIM_ERR_INVALID_ARGUMENT \
+  1                                /**< NULL, non-finite number, unknown id: the caller's mistake */
+#define UNISIM_ERR_CAPACITY 2      /**< a declared capacity or the caller's buffer is too small */
+#define UNISIM_ERR_OUT_OF_MEMORY 3 /**< the arena is smaller than unisim_arena_size() says */
+#define UNISIM_ERR_NOT_READY 4     /**< nothing to do or to give yet */
+#define UNISIM_ERR_NUMERICAL 5 /**< no descent or not positive definite; poses stay as they were \
+                                */
+#define UNISIM_ERR_INTERNAL 6  /**< broken invariant; every later call until reset says the same */
+#define UNISIM_ERR_ABI_MISMATCH 7 /**< struct_size is not one this library knows */
 
 /** Fixed text for a status code; never NULL. */
 UNISIM_API const char* unisim_status_string(unisim_status status);
@@ -67,12 +70,13 @@ typedef struct unisim_sim3 {
 } unisim_sim3;
 
 /** Depth map of one keyframe in one prediction; any size, the pixel grid of its own prediction.
- *  A pixel with depth that is not finite or <= 0 has no depth. */
+ *  A pixel whose depth is not finite or <= 0, or whose confidence is not finite, has no depth. */
 typedef struct unisim_depth_map {
-  const float* depth;      /**< height*width z-depths, row-major, unit of the prediction */
-  const float* confidence; /**< same shape, larger is better, only its order counts; NULL: all equal */
-  int32_t width;           /**< pixels */
-  int32_t height;          /**< pixels */
+  const float* depth; /**< height*width z-depths, row-major, unit of the prediction */
+  const float*
+      confidence; /**< same shape, larger is better, only its order counts; NULL: all equal */
+  int32_t width;  /**< pixels */
+  int32_t height; /**< pixels */
 } unisim_depth_map;
 
 /** Largest number of keyframes one prediction may hold. */
@@ -82,7 +86,7 @@ typedef struct unisim_depth_map {
 
 /** How measurements enter the graph. */
 #define UNISIM_PRESET_CONSISTENT 0 /**< scale ratios inside the pose edges (default) */
-#define UNISIM_PRESET_PAPER 1      /**< scale 1 in pose edges and weights 1 1 50 50 0.2, as printed */
+#define UNISIM_PRESET_PAPER 1 /**< scale 1 in pose edges and weights 1 1 50 50 0.2, as printed */
 
 /** Factors that unisim_config.disabled_factors may switch off (for ablations). */
 #define UNISIM_FACTOR_TWO_VIEW 1u
@@ -104,33 +108,34 @@ typedef void (*unisim_log_fn)(int32_t level, const char* text, void* user);
 /** Everything a session is made with. Fill with unisim_config_init(), then edit. */
 typedef struct unisim_config {
   uint32_t struct_size;
-  int32_t preset;            /**< UNISIM_PRESET_* */
-  int32_t window_size;       /**< keyframes per submap w, 2..UNISIM_MAX_VIEWS (16) */
-  int32_t window_overlap;    /**< keyframes shared by neighbouring submaps, 0..window_size-1 (2) */
-  int32_t max_keyframes;     /**< capacity (1024) */
-  int32_t max_submaps;       /**< capacity, 0: enough for max_keyframes (0) */
-  int32_t max_loops;         /**< capacity of loop submaps (64) */
-  int32_t depth_grid_width;  /**< depth maps are sampled on this grid for scale ratios (80) */
-  int32_t depth_grid_height; /**< (60) */
-  uint32_t disabled_factors; /**< bits UNISIM_FACTOR_* (0) */
-  double weight_two_view;     /**< information of a two-view edge (1) */
-  double weight_bridge;       /**< (1) */
-  double weight_scale_anchor; /**< (1) */
-  double weight_tie;          /**< (0.2) */
-  double weight_scale;        /**< (1) */
+  int32_t preset;         /**< UNISIM_PRESET_* */
+  int32_t window_size;    /**< keyframes per submap w, 2..UNISIM_MAX_VIEWS (16) */
+  int32_t window_overlap; /**< keyframes shared by neighbouring submaps, 0..window_size-1 (2) */
+  int32_t max_keyframes;  /**< capacity, 2..65536 (1024) */
+  int32_t max_submaps; /**< capacity, 0: enough for max_keyframes; later windows are skipped (0) */
+  int32_t max_loops;   /**< capacity of loop submaps, 0..4096 (64) */
+  int32_t depth_grid_width;   /**< depth maps are sampled on this grid for ratios, 4..512 (80) */
+  int32_t depth_grid_height;  /**< 4..512 (60) */
+  uint32_t disabled_factors;  /**< bits UNISIM_FACTOR_* (0) */
+  double weight_two_view;     /**< information of a two-view edge; 0: the preset's, 1 (0) */
+  double weight_bridge;       /**< 0: the preset's, 1 (0) */
+  double weight_scale_anchor; /**< 0: the preset's, 1 or 50 (0) */
+  double weight_tie;          /**< 0: the preset's, 0.2 (0) */
+  double weight_scale;        /**< 0: the preset's, 1 or 50 (0) */
   double huber_delta;         /**< Huber width of ordinary edges, whitened (1) */
   double loop_delta;          /**< Geman-McClure width of loop edges, whitened (0.1) */
   double live_scale_exponent; /**< g of the live chain: scale step r^g, 0..1 (0.5) */
-  double confidence_drop;     /**< share of least confident pixels left out of ratios, 0..0.9 (0.25) */
-  double sigma_reference;     /**< center_sigma at and below which an edge has its full weight (0.001) */
-  double sigma_gate;          /**< submaps with a larger center_sigma are refused (0.005) */
-  double sigma_gate_loop;     /**< the same for loops (0.002) */
-  double scatter_gate;        /**< submaps and pairs without center_sigma whose depth ratios scatter
-                                   more (median absolute deviation of the log ratio) are refused (0.13) */
-  int32_t lost_after;         /**< rejected pairs in a row until the state is LOST (3) */
-  int32_t max_iterations;     /**< cap of one unisim_optimize() whose budget says 0 (10) */
-  unisim_log_fn log;          /**< NULL: silent */
-  void* log_user;             /**< handed to log */
+  double confidence_drop; /**< share of least confident pixels left out of ratios, 0..0.9 (0.25) */
+  double
+      sigma_reference; /**< center_sigma at and below which an edge has its full weight (0.001) */
+  double sigma_gate;   /**< submaps with a larger center_sigma are refused (0.005) */
+  double sigma_gate_loop; /**< the same for loops (0.002) */
+  double scatter_gate;    /**< submaps and pairs without center_sigma whose depth ratios scatter
+                               more (median absolute deviation of the log ratio) are refused (0.13) */
+  int32_t lost_after;     /**< rejected pairs in a row until the state is LOST (3) */
+  int32_t max_iterations; /**< cap of one unisim_optimize() whose budget says 0 (10) */
+  unisim_log_fn log;      /**< NULL: silent */
+  void* log_user;         /**< handed to log */
 } unisim_config;
 
 /** Defaults for every field.
@@ -166,13 +171,14 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_arena_parts(const unisim_config
 /** A session. All its bytes lie in the arena. */
 typedef struct unisim_session unisim_session;
 
-/** Make a session in the caller's memory. The last thing that could need memory: nothing is asked of
- *  the system here or later.
+/** Make a session in the caller's memory. The last thing that could need memory: nothing is asked
+ * of the system here or later.
  *  @param[out] session set on success
  *  @param[in]  config  copied
  *  @param[in]  arena   caller's, any alignment, kept until unisim_session_destroy()
  *  @param      size    bytes of arena, at least unisim_arena_size()
- *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_OUT_OF_MEMORY, UNISIM_ERR_ABI_MISMATCH */
+ *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_OUT_OF_MEMORY,
+ * UNISIM_ERR_ABI_MISMATCH */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_session_create(unisim_session** session,
                                                                 const unisim_config* config,
                                                                 void* arena, size_t size);
@@ -195,7 +201,8 @@ typedef struct unisim_keyframe {
 /** Append a keyframe.
  *  @param[in]  keyframe timestamps must grow
  *  @param[out] id       0, 1, 2 ... in order of arrival
- *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT (NULL, time not after the last), UNISIM_ERR_CAPACITY */
+ *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT (NULL, time not after the last),
+ * UNISIM_ERR_CAPACITY */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_keyframe(unisim_session* session,
                                                               const unisim_keyframe* keyframe,
                                                               int32_t* id);
@@ -214,54 +221,70 @@ typedef struct unisim_two_view {
 } unisim_two_view;
 
 /** Add the two-view prediction of keyframes i and i + 1: sets the live pose of i + 1.
- *  @return UNISIM_OK (refused for its quality too: then unisim_get_info() counts it, the pose is held and
- *          the state is DEGRADED or LOST); UNISIM_ERR_INVALID_ARGUMENT on NULL, non-finite numbers,
- *          scale other than 1, ids not consecutive or already given; UNISIM_ERR_NOT_READY when keyframe j
- *          or the pair before is not there yet */
+ *
+ *  depth_i is compared with the depth keyframe i had in the pair before: that ratio carries scale
+ * along the chain. With fewer than 16 grid cells in common it is taken as 1 and the edge counts a
+ * hundredth.
+ *  @return UNISIM_OK (refused for its quality too: then unisim_get_info() counts it, the pose is
+ * held and the state is DEGRADED or LOST); UNISIM_ERR_INVALID_ARGUMENT on NULL, non-finite numbers,
+ *          scale other than 1, ids not consecutive or already given; UNISIM_ERR_NOT_READY when
+ * keyframe j or the pair before is not there yet */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_two_view(unisim_session* session,
                                                               const unisim_two_view* two_view);
 
 /** Multi-view prediction: local poses and depth of a window of keyframes, in a unit of its own. */
 typedef struct unisim_submap {
   uint32_t struct_size;
-  int32_t count;                  /**< views, 2..UNISIM_MAX_VIEWS */
-  const int32_t* keyframe_ids;    /**< count ids, ascending; views the predictor lost are left out */
-  const unisim_sim3* T_submap_kf; /**< count poses, scale 1, any gauge: re-anchored to the centre view */
-  const unisim_depth_map* depth;  /**< count maps, same unit as the poses */
-  double center_sigma;            /**< as in unisim_two_view */
+  int32_t count;               /**< views, 2..window_size */
+  const int32_t* keyframe_ids; /**< count ids, ascending; views the predictor lost are left out */
+  const unisim_sim3*
+      T_submap_kf; /**< count poses, scale 1, any gauge: re-anchored to the centre view */
+  const unisim_depth_map* depth; /**< count maps, same unit as the poses */
+  double center_sigma;           /**< as in unisim_two_view */
 } unisim_submap;
 
-/** Add the submap of a window; answers a UNISIM_REQUEST_WINDOW.
- *  @param[out] submap_id id for unisim_update_submap(); -1 when refused for its quality
- *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_CAPACITY, UNISIM_ERR_NOT_READY (a keyframe
- *          whose two-view prediction is still open) */
+/** Add the submap of a window; answers the UNISIM_REQUEST_WINDOW with its keyframes, or the oldest
+ * that holds them all.
+ *
+ *  A view without 16 grid cells of depth in common with its keyframe's two-view depth takes no
+ * part; a keyframe whose pair was refused gets its pose from the submap. A submap over two segments
+ * joins them: the younger one moves as a whole.
+ *  @param[out] submap_id id for unisim_update_submap(); -1 when refused for its quality, or when
+ * fewer than two views are left: unisim_get_info() counts it, the request is answered
+ *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT (also: no open request holds the keyframes),
+ *          UNISIM_ERR_CAPACITY, UNISIM_ERR_NOT_READY (a keyframe whose two-view prediction is open)
+ */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_submap(unisim_session* session,
                                                             const unisim_submap* submap,
                                                             int32_t* submap_id);
 
-/** Add a loop submap: views around two distant places. Its edges are robust (Geman-McClure).
+/** Add a loop submap: views around two distant places. Its edges are robust (Geman-McClure). A loop
+ *  between two segments joins them and the state becomes UNISIM_STATE_RELOCALISED.
  *  @param[out] submap_id as for unisim_add_submap()
  *  @return as unisim_add_submap() */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_loop(unisim_session* session,
                                                           const unisim_submap* submap,
                                                           int32_t* submap_id);
 
-/** Better measurements of a submap that is in the graph (the predictor has re-adjusted the window). */
+/** Better measurements of a submap that is in the graph (the predictor has re-adjusted the window).
+ */
 typedef struct unisim_submap_update {
   uint32_t struct_size;
   int32_t submap_id;
   int32_t count;                  /**< the count it was added with */
   int32_t reserved;               /**< 0 */
   const unisim_sim3* T_submap_kf; /**< count poses, scale 1, any gauge */
-  const double* log_depth_ratio;  /**< count values: log median(new depth / old depth) of each view; the old
-                                       depth is that of the last measurement handed in */
+  const double* log_depth_ratio;  /**< count values: log median(new depth / old depth) of each view;
+                                     the old  depth is that of the last measurement handed in */
   double center_sigma;            /**< as in unisim_two_view */
 } unisim_submap_update;
 
-/** Replace the measurement of a submap.
- *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT (also: unknown or refused submap, other count) */
-UNISIM_API UNISIM_NODISCARD unisim_status
-unisim_update_submap(unisim_session* session, const unisim_submap_update* update);
+/** Replace the measurement of a submap: poses, depth ratios, quality. Beyond the gate the old one
+ *  stays; unisim_get_info() counts that among the refused.
+ *  @return UNISIM_OK (refused for its quality too), UNISIM_ERR_INVALID_ARGUMENT (also: unknown
+ * submap, other count) */
+UNISIM_API UNISIM_NODISCARD unisim_status unisim_update_submap(unisim_session* session,
+                                                               const unisim_submap_update* update);
 
 /* ------------------------------------------------------------------ what the session wants next */
 
@@ -277,25 +300,28 @@ typedef struct unisim_request {
   int32_t keyframe_ids[UNISIM_MAX_VIEWS];
 } unisim_request;
 
-/** The oldest open request of the given kinds. Asking does not change it: it stays open until the
+/** The oldest open request of the given kinds. Pairs (0,1), (1,2) ... in order; a window once all
+ * its pairs are settled, with UNISIM_PRESET_PAPER the pair after it too. UNISIM_REQUEST_LOOP is
+ * kept for later: loops are the host's to find. Asking does not change it: it stays open until the
  *  prediction is added or unisim_reject_request() is called.
  *  @param      kinds   bits of UNISIM_REQUEST_*
  *  @param[out] request filled on success
  *  @return UNISIM_OK, UNISIM_ERR_NOT_READY when there is none, UNISIM_ERR_INVALID_ARGUMENT */
-UNISIM_API UNISIM_NODISCARD unisim_status unisim_next_request(unisim_session* session, uint32_t kinds,
+UNISIM_API UNISIM_NODISCARD unisim_status unisim_next_request(unisim_session* session,
+                                                              uint32_t kinds,
                                                               unisim_request* request);
 
-/** Say that the prediction cannot be made (lost track, rejected by the predictor). A pair: the pose of j
- *  is held and the state falls to DEGRADED, after lost_after in a row to LOST; a later pair that
- *  succeeds starts a new segment. A window: it is left out of the map.
+/** Say that the prediction cannot be made (lost track, rejected by the predictor). A pair: the pose
+ * of j is held and the state falls to DEGRADED, after lost_after in a row to LOST; a later pair
+ * that succeeds starts a new segment. A window: it is left out of the map.
  *  @param[in] request as unisim_next_request() gave it
  *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT when it is not an open request */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_reject_request(unisim_session* session,
                                                                 const unisim_request* request);
 
-/** Ask for the last, shorter window too: call once at the end of a recording. The next
- *  UNISIM_REQUEST_WINDOW covers the keyframes no full window has covered.
- *  @return UNISIM_OK, UNISIM_ERR_NOT_READY when no keyframe is left over */
+/** Ask for the last, shorter window too: call at the end of a recording. The next
+ *  UNISIM_REQUEST_WINDOW covers the keyframes no full window has covered, and the overlap.
+ *  @return UNISIM_OK, UNISIM_ERR_NOT_READY when fewer than two keyframes are left over */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_close_window(unisim_session* session);
 
 /* ------------------------------------------------------------------ optimise */
@@ -306,10 +332,10 @@ typedef struct unisim_budget {
   int32_t max_iterations; /**< 0: unisim_config.max_iterations */
 } unisim_budget;
 
-#define UNISIM_STOP_CONVERGED 0      /**< relative cost change or step below 1e-7 */
-#define UNISIM_STOP_BUDGET 1         /**< iterations used up */
-#define UNISIM_STOP_NO_DESCENT 2     /**< damping at its limit; the last accepted poses stay */
-#define UNISIM_STOP_NOT_POSITIVE 3   /**< the system stayed singular; see bad_node */
+#define UNISIM_STOP_CONVERGED 0    /**< relative cost change or step below 1e-7 */
+#define UNISIM_STOP_BUDGET 1       /**< iterations used up */
+#define UNISIM_STOP_NO_DESCENT 2   /**< damping at its limit; the last accepted poses stay */
+#define UNISIM_STOP_NOT_POSITIVE 3 /**< the system stayed singular; see bad_node */
 
 /** What an optimisation did. */
 typedef struct unisim_report {
@@ -324,20 +350,21 @@ typedef struct unisim_report {
   double initial_cost;
   double final_cost;
   int32_t map_revision;  /**< grows with every optimisation that moved the past */
-  int32_t first_changed; /**< keyframes whose pose moved, -1 if none */
+  int32_t first_changed; /**< keyframes whose pose moved by more than 1e-6, -1 if none */
   int32_t last_changed;
   int32_t reserved;
-  double jump_translation; /**< how the newest pose moved: length over the scene unit */
+  double jump_translation; /**< how the newest pose moved: length in the world's unit */
   double jump_rotation_rad;
   double jump_log_scale;
 } unisim_report;
 
 /** Optimise the graph from the present poses (Levenberg-Marquardt). Never aborts: poses stay at the
- *  last accepted step.
+ *  last accepted step. Each segment keeps its first keyframe where it is.
  *  @param[in]  budget NULL: the configured cap
  *  @param[out] report may be NULL
- *  @return UNISIM_OK, UNISIM_ERR_NOT_READY with nothing to optimise, UNISIM_ERR_NUMERICAL (report says
- *          where), UNISIM_ERR_INVALID_ARGUMENT */
+ *  @return UNISIM_OK, UNISIM_ERR_NOT_READY with nothing to optimise, UNISIM_ERR_NUMERICAL (report
+ * says where), UNISIM_ERR_CAPACITY when loops tangle the graph beyond the solver's memory,
+ *          UNISIM_ERR_INVALID_ARGUMENT */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_optimize(unisim_session* session,
                                                           const unisim_budget* budget,
                                                           unisim_report* report);
@@ -358,9 +385,10 @@ typedef struct unisim_pose {
   int64_t timestamp_ns;
   unisim_sim3 T_world_kf; /**< scale: unit of the keyframe's two-view prediction to the world */
   int32_t state;          /**< UNISIM_STATE_* when the keyframe was taken */
-  int32_t confidence;     /**< 0 held or unknown, 1 pair only, 2 in a submap, 3 in two or a closed loop */
-  int32_t submap_id;      /**< submap that covers it best, -1 if none */
-  int32_t segment;        /**< keyframes of different segments have no common frame or scale */
+  int32_t
+      confidence; /**< 0 held or unknown, 1 pair only, 2 in a submap, 3 in two or a closed loop */
+  int32_t submap_id; /**< submap that covers it best, -1 if none */
+  int32_t segment;   /**< keyframes of different segments have no common frame or scale */
 } unisim_pose;
 
 /** Latest pose of one keyframe.
@@ -378,8 +406,11 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_trajectory(const unisim_ses
                                                                 size_t* count);
 
 /** Marginal covariance of a keyframe pose (7x7, column-major, tangent order), from the last
- *  unisim_optimize(). Cost: one solve with seven right-hand sides.
- *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_NOT_READY when the graph has changed since */
+ *  unisim_optimize(), times its variance of unit weight (2 cost / degrees of freedom). Zero for the
+ *  first keyframe of a segment, which is held. Cost: one factorisation for the first keyframe asked
+ *  for, one solve with seven right-hand sides for each.
+ *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_NOT_READY when the graph has changed
+ * since or the pose is held, UNISIM_ERR_NUMERICAL */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_covariance(unisim_session* session,
                                                                 int32_t keyframe_id,
                                                                 double covariance[49]);

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Results out, by copy.
+#include <algorithm>
+
+#include "capi/src/read_write.hpp"
+#include "capi/src/struct_size.hpp"
+
+using unisim::PoseOutput;
+using unisim::Session;
+using unisim::Status;
+using unisim::to_c;
+using unisim::Tracking;
+
+static_assert(UNISIM_STATE_INIT == static_cast<int>(Tracking::kInit) &&
+                  UNISIM_STATE_TRACKING == static_cast<int>(Tracking::kTracking) &&
+                  UNISIM_STATE_DEGRADED == static_cast<int>(Tracking::kDegraded) &&
+                  UNISIM_STATE_LOST == static_cast<int>(Tracking::kLost) &&
+                  UNISIM_STATE_RELOCALISED == static_cast<int>(Tracking::kRelocalised),
+              "state numbers");
+
+namespace {
+
+const Session* core(const unisim_session* session) {
+  return reinterpret_cast<const Session*>(session);
+}
+
+unisim_status check_session(const unisim_session* session) {
+  if (session == nullptr) return UNISIM_ERR_INVALID_ARGUMENT;
+  return core(session)->broken() ? UNISIM_ERR_INTERNAL : UNISIM_OK;
+}
+
+unisim_pose to_c(int32_t keyframe_id, const PoseOutput& pose) {
+  unisim_pose p = {};
+  p.keyframe_id = keyframe_id;
+  p.timestamp_ns = pose.timestamp_ns;
+  p.T_world_kf = unisim::write_pose(pose.T_world_kf);
+  p.state = static_cast<int32_t>(pose.state);
+  p.confidence = pose.confidence;
+  p.submap_id = pose.submap;
+  p.segment = pose.segment;
+  return p;
+}
+
+}  // namespace
+
+unisim_status unisim_get_pose(const unisim_session* session, int32_t keyframe_id,
+                              unisim_pose* pose) {
+  unisim_status status = check_session(session);
+  if (status == UNISIM_OK) status = unisim::check_output(pose);
+  if (status != UNISIM_OK) return status;
+  PoseOutput latest;
+  const Status found = core(session)->pose(keyframe_id, &latest);
+  if (found != Status::kOk) return to_c(found);
+  unisim::write_struct(to_c(keyframe_id, latest), unisim::struct_size_of(pose), pose);
+  return UNISIM_OK;
+}
+
+unisim_status unisim_get_trajectory(const unisim_session* session, unisim_pose* poses,
+                                    size_t capacity, size_t* count) {
+  unisim_status status = check_session(session);
+  if (status != UNISIM_OK) return status;
+  if (count == nullptr || (poses == nullptr && capacity > 0)) return UNISIM_ERR_INVALID_ARGUMENT;
+  if (capacity > 0) status = unisim::check_output(poses);
+  if (status != UNISIM_OK) return status;
+  const Session& source = *core(session);
+  size_t needed = 0;
+  for (int32_t id = 0; id < source.keyframes().size(); ++id) needed += source.has_pose(id) ? 1 : 0;
+  *count = needed;
+  if (needed > capacity) return UNISIM_ERR_CAPACITY;
+  if (needed == 0) return UNISIM_OK;
+  const size_t stride = unisim::struct_size_of(poses);
+  auto* place = reinterpret_cast<unsigned char*>(poses);
+  for (int32_t id = 0; id < source.keyframes().size(); ++id) {
+    PoseOutput latest;
+    if (source.pose(id, &latest) != Status::kOk) continue;
+    unisim::write_struct(to_c(id, latest), stride, place);
+    place += stride;
+  }
+  return UNISIM_OK;
+}
+
+unisim_status unisim_get_covariance(unisim_session* session, int32_t keyframe_id,
+                                    double covariance[49]) {
+  const unisim_status status = check_session(session);
+  if (status != UNISIM_OK) return status;
+  if (covariance == nullptr) return UNISIM_ERR_INVALID_ARGUMENT;
+  unisim::Mat7 block;
+  const Status done = reinterpret_cast<Session*>(session)->covariance(keyframe_id, &block);
+  if (done == Status::kOk) std::copy(block.data(), block.data() + block.size(), covariance);
+  return to_c(done);
+}
+
+unisim_status unisim_get_submap(const unisim_session* session, int32_t submap_id,
+                                unisim_submap_info* info) {
+  unisim_status status = check_session(session);
+  if (status == UNISIM_OK) status = unisim::check_output(info);
+  if (status != UNISIM_OK) return status;
+  const Session& source = *core(session);
+  if (!source.submaps().has(submap_id)) return UNISIM_ERR_INVALID_ARGUMENT;
+  const unisim::Submap& submap = source.submaps()[submap_id];
+  unisim_submap_info s = {};
+  s.submap_id = submap_id;
+  s.is_loop = submap.is_loop ? 1 : 0;
+  s.count = submap.count;
+  for (int32_t k = 0; k < submap.count; ++k) {
+    s.keyframe_ids[k] = source.submaps().view(submap, k).keyframe;
+  }
+  s.T_world_submap = unisim::write_pose(source.graph().pose(submap.node));
+  s.center_sigma = submap.center_sigma;
+  s.scatter = submap.scatter;
+  unisim::write_struct(s, unisim::struct_size_of(info), info);
+  return UNISIM_OK;
+}
+
+unisim_status unisim_get_info(const unisim_session* session, unisim_session_info* info) {
+  unisim_status status = check_session(session);
+  if (status == UNISIM_OK) status = unisim::check_output(info);
+  if (status != UNISIM_OK) return status;
+  const Session& source = *core(session);
+  const unisim::SessionCounts counts = source.counts();
+  unisim_session_info i = {};
+  i.state = static_cast<int32_t>(source.tracking().state());
+  i.keyframes = source.keyframes().size();
+  i.posed_keyframes = counts.posed_keyframes;
+  i.last_posed = counts.last_posed;
+  i.submaps = counts.windows;
+  i.submaps_refused = counts.submaps_refused;
+  i.loops = counts.loops;
+  i.loops_refused = counts.loops_refused;
+  i.pairs_refused = counts.pairs_refused;
+  i.segments = counts.segments;
+  i.lost_events = source.tracking().lost_events();
+  i.map_revision = counts.map_revision;
+  i.arena_bytes = source.arena_bytes();
+  i.arena_peak_bytes = source.arena_used_bytes();
+  unisim::write_struct(i, unisim::struct_size_of(info), info);
+  return UNISIM_OK;
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Remembers what depth each keyframe had in which unit, and compares new depth with it.
+#pragma once
+
+#include <cstdint>
+
+#include "core/depth/log_median_ratio.hpp"
+#include "core/map/depth_archive.hpp"
+#include "core/map/depth_sampler.hpp"
+#include "core/map/depth_store.hpp"
+
+namespace unisim {
+
+/// Sizes of a DepthBook.
+struct DepthBookSize {
+  int32_t keyframes = 0;       ///< coarse depth is kept of all of them
+  int32_t two_view_slots = 0;  ///< newest keyframes whose two-view depth is kept on the grid
+  int32_t submap_slots = 0;    ///< submap views whose depth is kept on the grid
+  GridSize grid;
+};
+
+/// Depth of keyframes by unit: one unit per two-view chain link, one per submap.
+///
+/// load() a host's map, then compare it or keep it. Comparing falls back from the grid to the
+/// coarse archive for keyframes whose grid has given way; below kFewestSamples common samples a
+/// ratio is unknown.
+class DepthBook {
+ public:
+  static constexpr int32_t kFewestSamples = 16;
+
+  DepthBook() = default;
+  DepthBook(Arena& arena, const DepthBookSize& size, double confidence_drop);
+
+  /// Sample a host's map; it is "the map" of the following calls. false: too few depths for any
+  /// use.
+  bool load(const DepthMap& map);
+
+  /// log median(map / two-view depth of the keyframe). false: unknown.
+  bool over_two_view(int32_t keyframe, LogMedianRatio* ratio);
+  /// log median(map / depth of the keyframe in the submap last kept). false: unknown.
+  bool over_submap(int32_t keyframe, LogMedianRatio* ratio);
+  /// Which submap view over_submap() would compare with.
+  DepthStore::Source submap_source(int32_t keyframe) const { return submaps_.source_of(keyframe); }
+
+  /// The map is the keyframe's two-view depth from now on.
+  void keep_two_view(int32_t keyframe);
+  /// The map is the depth of a submap's view.
+  void keep_submap(const DepthStore::Source& source);
+  /// A submap's view has been measured anew: its depth is `factor` times the old.
+  void rescale_submap(int32_t submap, int32_t view, double factor) {
+    submaps_.rescale(submap, view, factor);
+  }
+
+ private:
+  bool compare(Span<const float> map, Span<const float> kept, LogMedianRatio* ratio);
+
+  DepthStore two_view_;
+  DepthStore submaps_;
+  DepthArchive archive_;
+  GridSize grid_;
+  double confidence_drop_ = 0.0;
+  Span<float> map_;          // the loaded map on the grid
+  Span<float> coarse_map_;   // and on the archive's grid
+  Span<float> coarse_kept_;  // a keyframe out of the archive
+  Span<float> scratch_;
+};
+
+}  // namespace unisim

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Which windows of keyframes want a multi-view prediction.
+#include "core/map/submap_window.hpp"
+
+#include <algorithm>
+
+namespace unisim {
+
+bool WindowSchedule::append(const Window& window) {
+  covered_ = window.first + window.count;
+  next_first_ = std::max(covered_ - overlap_, 0);
+  if (cut_ == open_.capacity()) return false;
+  ++cut_;
+  return open_.push_back(window);
+}
+
+bool WindowSchedule::keyframe_added(int32_t keyframes) {
+  if (keyframes < next_first_ + size_) return true;
+  return append({next_first_, size_});
+}
+
+bool WindowSchedule::close(int32_t keyframes) {
+  constexpr int32_t kFewestNew = 2;
+  if (keyframes - covered_ < kFewestNew) return false;
+  return append({next_first_, keyframes - next_first_});
+}
+
+const Window* WindowSchedule::oldest(int32_t settled) const {
+  for (const Window& window : open_) {
+    if (window.last() <= settled) return &window;
+  }
+  return nullptr;
+}
+
+int32_t WindowSchedule::find(int32_t first, int32_t last) const {
+  int32_t holder = -1;
+  for (int32_t i = 0; i < open_.size(); ++i) {
+    if (open_[i].first == first && open_[i].last() == last) return i;
+    if (holder < 0 && open_[i].holds(first) && open_[i].holds(last)) holder = i;
+  }
+  return holder;
+}
+
+void WindowSchedule::remove(int32_t index) {
+  for (int32_t i = index; i + 1 < open_.size(); ++i) open_[i] = open_[i + 1];
+  open_.pop_back();
+}
+
+}  // namespace unisim

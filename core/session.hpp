@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// The session: wires keyframes, submaps, depth, graph and solver; the one class that capi sees.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/base/arena.hpp"
+#include "core/base/status.hpp"
+#include "core/graph/graph.hpp"
+#include "core/map/depth_book.hpp"
+#include "core/map/gauge.hpp"
+#include "core/map/keyframe_ring.hpp"
+#include "core/map/submap_table.hpp"
+#include "core/map/submap_window.hpp"
+#include "core/map/tracking_state.hpp"
+#include "core/session/session_config.hpp"
+#include "core/solve/lm.hpp"
+
+namespace unisim {
+
+/// Checked two-view prediction.
+struct TwoViewInput {
+  int32_t i = 0;
+  int32_t j = 0;
+  Sim3 T_i_j;  ///< scale 1
+  DepthMap depth_i;
+  DepthMap depth_j;
+  double center_sigma = 0.0;  ///< >= 0, 0: not known
+};
+
+/// Checked multi-view prediction; the arrays are the caller's.
+struct SubmapInput {
+  Span<const int32_t> keyframes;  ///< ascending
+  Span<const Sim3> T_submap_kf;   ///< scale 1, any gauge
+  Span<const DepthMap> depth;
+  double center_sigma = 0.0;
+};
+
+/// Checked new measurement of a submap.
+struct SubmapUpdate {
+  int32_t submap = -1;
+  Span<const Sim3> T_submap_kf;
+  Span<const double> log_depth_ratio;
+  double center_sigma = 0.0;
+};
+
+/// Kinds of predictions, bits of UNISIM_REQUEST_*.
+inline constexpr uint32_t kRequestPair = 1;
+inline constexpr uint32_t kRequestWindow = 2;
+
+/// A wanted prediction: keyframes first .. first + count - 1.
+struct Request {
+  uint32_t kind = 0;
+  Window keyframes;
+};
+
+/// Pose of a keyframe as it is given out.
+struct PoseOutput {
+  Sim3 T_world_kf;
+  int64_t timestamp_ns = 0;
+  Tracking state = Tracking::kInit;
+  int32_t confidence = 0;  ///< 0 held, 1 pair only, 2 in a submap, 3 in two or a loop
+  int32_t submap = -1;
+  int32_t segment = -1;
+};
+
+/// How an optimisation changed the map.
+struct OptimizeReport {
+  LmReport lm;
+  int32_t keyframes = 0;
+  int32_t submaps = 0;
+  int32_t bad_keyframe = -1;  ///< keyframe id of lm.bad_node
+  int32_t bad_submap = -1;    ///< or submap id
+  int32_t first_changed = -1;
+  int32_t last_changed = -1;
+  double jump_translation = 0.0;  ///< of the newest pose, world units
+  double jump_rotation = 0.0;     ///< rad
+  double jump_log_scale = 0.0;
+};
+
+/// Counters.
+struct SessionCounts {
+  int32_t posed_keyframes = 0;
+  int32_t last_posed = -1;
+  int32_t windows = 0;
+  int32_t submaps_refused = 0;
+  int32_t loops = 0;
+  int32_t loops_refused = 0;
+  int32_t pairs_refused = 0;
+  int32_t segments = 0;
+  int32_t map_revision = 0;
+};
+
+/// A session in the caller's memory. Calls return kOk or leave the session as it was; a broken
+/// invariant turns every later call into kInternal until reset().
+class Session {
+ public:
+  /// Bytes, and bytes by part, of a session with this configuration.
+  static Arena measure(const SessionConfig& config);
+  /// @return kOk; kOutOfMemory when the memory is smaller than measure() says
+  static Status create(const SessionConfig& config, void* memory, size_t bytes, Session** session);
+  /// Back to the state after create.
+  Status reset();
+
+  // ---- pairs (session/pairs.cpp)
+  Status add_keyframe(int64_t timestamp_ns, int32_t* id);
+  Status add_two_view(const TwoViewInput& input);
+
+  // ---- submaps (session/submaps.cpp, session/submap_edges.cpp, session/revision.cpp)
+  /// @param[out] id -1 when refused for its quality
+  Status add_submap(const SubmapInput& input, bool is_loop, int32_t* id);
+  Status update_submap(const SubmapUpdate& update);
+
+  // ---- requests (session/requests.cpp)
+  Status next_request(uint32_t kinds, Request* request) const;
+  Status reject_request(const Request& request);
+  Status close_window();
+
+  // ---- optimisation (session/optimize.cpp)
+  Status optimize(int32_t max_iterations, OptimizeReport* report);
+  Status covariance(int32_t keyframe, Mat7* covariance);
+
+  // ---- reading (session/read.cpp)
+  bool broken() const { return broken_; }
+  const SessionConfig& config() const { return config_; }
+  const KeyframeRing& keyframes() const { return keyframes_; }
+  const SubmapTable& submaps() const { return submaps_; }
+  const Graph& graph() const { return graph_; }
+  const TrackingState& tracking() const { return tracking_; }
+  SessionCounts counts() const { return counts_; }
+  size_t arena_bytes() const { return memory_bytes_; }
+  size_t arena_used_bytes() const { return used_bytes_; }
+  /// @return kOk; kInvalidArgument for an unknown id; kNotReady when it has no pose yet
+  Status pose(int32_t keyframe, PoseOutput* pose) const;
+  bool has_pose(int32_t keyframe) const { return keyframes_.pose_source(keyframe) >= 0; }
+
+ private:
+  Session(const SessionConfig& config, Arena& arena);
+
+  void accept_pair(const TwoViewInput& input, double log_ratio, double multiplier);
+  void refuse_pair(int32_t j);
+  void start_segment(int32_t keyframe, const Sim3& T_world_kf);
+  void give_node(int32_t keyframe, const Sim3& T_world_kf, int32_t segment);
+
+  Status check_views(const SubmapInput& input, bool is_loop, int32_t* window) const;
+  void measure_views(const SubmapInput& input, bool is_loop, Submap* submap);
+  void measure_view(const DepthMap& depth, bool may_adopt, bool may_share, SubmapView* view);
+  bool choose_origin(Submap* submap);
+  bool judge_submap(Submap* submap, int32_t id);
+  void refuse_submap(bool is_loop);
+  void place_submap(Submap* submap);
+  void join_segment(const Submap& submap, int32_t segment, int32_t into);
+  void adopt_views(const SubmapInput& input, const Submap& submap);
+  void add_view_edges(int32_t id);
+  void add_shared_edges(int32_t id);
+  bool take_window_pair(int32_t m, int32_t n);
+  void add_scale_edge(int32_t m, int32_t n);
+  void keep_shared_depth(const SubmapInput& input, int32_t id, const Window& window);
+  void count_cover(int32_t id);
+  void update_views(const SubmapUpdate& update, Submap* submap);
+  void update_shared(const SubmapUpdate& update);
+  double median_log_c(int32_t m, int32_t n);
+
+  Sim3 view_measurement(const SubmapView& view) const;
+  Sim3 shared_measurement(const SharedKeyframe& shared) const;
+  double quality_multiplier(double center_sigma) const;
+  EdgeWeight edge_weight(FactorKind kind, double multiplier, bool is_loop) const;
+  int32_t settled_for_windows() const;
+  void describe_changes(OptimizeReport* report);
+  void describe_bad_node(OptimizeReport* report) const;
+  /// Remember that an invariant is broken when `status` is not kOk.
+  bool holds(Status status);
+
+  SessionConfig config_;
+  size_t memory_bytes_ = 0;
+  void* memory_ = nullptr;
+  size_t used_bytes_ = 0;
+  bool broken_ = false;
+
+  KeyframeRing keyframes_;
+  WindowSchedule windows_;
+  SubmapTable submaps_;
+  TrackingState tracking_;
+  DepthBook depth_;
+  Graph graph_;
+  Gauge gauge_;
+  LevenbergMarquardt solver_;
+  Span<Sim3> before_;  // keyframe poses before an optimisation, by keyframe
+
+  SessionCounts counts_;
+  int32_t settled_ = 0;    // last keyframe whose pair with the one before is settled
+  int32_t closed_at_ = 0;  // keyframes there were at the last close_window()
+  int32_t window_pair_capacity_ = 0;
+  int32_t window_pairs_ = 0;  // pairs of submaps that share keyframes
+  int32_t next_segment_ = 0;
+  uint64_t solved_revision_ = 0;  // of the graph at the end of the last optimisation
+  double variance_factor_ = 0.0;  // of that optimisation
+};
+
+}  // namespace unisim

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Optimisation of the graph and what it changed; covariances.
+#include <algorithm>
+#include <cmath>
+
+#include "core/session.hpp"
+
+namespace unisim {
+namespace {
+
+// Smaller moves are the rounding of a converged map: relative to the keyframe's unit, rad, log.
+constexpr double kLeastMove = 1e-6;
+
+bool moved(const Sim3& before, const Sim3& after) {
+  return sim3_log(between(before, after)).cwiseAbs().maxCoeff() > kLeastMove;
+}
+
+/// Rows of all active edges minus free unknowns.
+int32_t degrees_of_freedom(const Graph& graph) {
+  int32_t rows = 0;
+  for (int32_t id = 0; id < graph.edge_end(); ++id) {
+    const Edge& edge = graph.edge(id);
+    if (edge.active()) rows += is_pose_factor(edge.kind) ? kTangentDim : 1;
+  }
+  for (int32_t node = 0; node < graph.node_end(); ++node) {
+    if (graph.has_node(node) && !graph.node(node).fixed) rows -= kTangentDim;
+  }
+  return rows;
+}
+
+}  // namespace
+
+Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
+  *report = OptimizeReport();
+  for (int32_t id = 0; id < keyframes_.size(); ++id) {
+    if (keyframes_[id].node >= 0) before_[id] = graph_.pose(keyframes_[id].node);
+  }
+  if (!holds(gauge_.apply(&graph_))) return Status::kInternal;
+  LmOptions options;
+  options.max_iterations = max_iterations > 0 ? max_iterations : config_.max_iterations;
+  const Status status = solver_.optimize(&graph_, options, &report->lm);
+  report->keyframes = counts_.posed_keyframes;
+  report->submaps = counts_.windows + counts_.loops;
+  describe_bad_node(report);
+  if (status == Status::kNotReady || status == Status::kCapacity) return status;
+  describe_changes(report);
+  const int32_t freedom = degrees_of_freedom(graph_);
+  variance_factor_ = freedom > 0 ? 2.0 * report->lm.final_cost / freedom : 1.0;
+  solved_revision_ = graph_.revision();
+  return status;
+}
+
+void Session::describe_changes(OptimizeReport* report) {
+  int32_t newest = -1;
+  for (int32_t id = 0; id < keyframes_.size(); ++id) {
+    if (keyframes_[id].node < 0) continue;
+    newest = id;
+    if (!moved(before_[id], graph_.pose(keyframes_[id].node))) continue;
+    if (report->first_changed < 0) report->first_changed = id;
+    report->last_changed = id;
+  }
+  if (newest < 0) return;
+  const Sim3& after = graph_.pose(keyframes_[newest].node);
+  const Vec7 jump = sim3_log(between(before_[newest], after));
+  report->jump_translation = (after.t - before_[newest].t).norm();
+  report->jump_rotation = jump.segment<3>(3).norm();
+  report->jump_log_scale = jump[6];
+  const bool past_moved = report->first_changed >= 0 && report->first_changed < newest;
+  if (past_moved) ++counts_.map_revision;
+}
+
+void Session::describe_bad_node(OptimizeReport* report) const {
+  if (report->lm.bad_node < 0) return;
+  for (int32_t id = 0; id < keyframes_.size(); ++id) {
+    if (keyframes_[id].node == report->lm.bad_node) report->bad_keyframe = id;
+  }
+  for (int32_t id = 0; id < submaps_.size(); ++id) {
+    if (submaps_[id].node == report->lm.bad_node) report->bad_submap = id;
+  }
+}
+
+Status Session::covariance(int32_t keyframe, Mat7* covariance) {
+  if (!keyframes_.has(keyframe)) return Status::kInvalidArgument;
+  const int32_t node = keyframes_[keyframe].node;
+  if (node < 0 || graph_.revision() != solved_revision_) return Status::kNotReady;
+  if (graph_.node(node).fixed) {
+    covariance->setZero();
+    return Status::kOk;
+  }
+  const Status status = solver_.marginal_covariance(graph_, node, covariance);
+  if (is_ok(status)) *covariance *= variance_factor_;
+  return status;
+}
+
+}  // namespace unisim

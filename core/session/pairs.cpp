@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Keyframes and two-view predictions: the live chain, held poses, segments.
+#include <algorithm>
+#include <cmath>
+
+#include "core/graph/two_view.hpp"
+#include "core/session.hpp"
+
+namespace unisim {
+namespace {
+
+// A pair whose depth cannot be compared with the pair before keeps the chain together, but says
+// next to nothing about its length: any submap over it decides.
+constexpr double kUnknownRatioMultiplier = 0.01;
+// Keeps the system well conditioned however bad a predictor calls itself.
+constexpr double kLeastMultiplier = 1e-4;
+
+}  // namespace
+
+double Session::quality_multiplier(double center_sigma) const {
+  if (center_sigma <= config_.sigma_reference) return 1.0;
+  const double ratio = config_.sigma_reference / center_sigma;
+  return std::max(ratio * ratio, kLeastMultiplier);
+}
+
+EdgeWeight Session::edge_weight(FactorKind kind, double multiplier, bool is_loop) const {
+  const RobustKernel kernel =
+      is_loop ? RobustKernel{RobustKernelKind::kGemanMcClure, config_.loop_delta}
+              : RobustKernel{RobustKernelKind::kHuber, config_.huber_delta};
+  return {config_.factor(kind).information, multiplier, kernel};
+}
+
+Status Session::add_keyframe(int64_t timestamp_ns, int32_t* id) {
+  if (keyframes_.size() > 0 && timestamp_ns <= keyframes_[keyframes_.size() - 1].timestamp_ns) {
+    return Status::kInvalidArgument;
+  }
+  if (keyframes_.full()) return Status::kCapacity;
+  *id = keyframes_.append(timestamp_ns);
+  if (!windows_.keyframe_added(keyframes_.size())) {
+    LogLine line;
+    line << "window ending at keyframe " << *id << " skipped: max_submaps reached";
+    line.send(config_.log, LogLevel::kWarning);
+  }
+  return Status::kOk;
+}
+
+Status Session::add_two_view(const TwoViewInput& input) {
+  if (input.i < 0 || input.j != input.i + 1) return Status::kInvalidArgument;
+  if (input.j >= keyframes_.size()) return Status::kNotReady;
+  if (input.j <= settled_) return Status::kInvalidArgument;
+  if (input.j != settled_ + 1) return Status::kNotReady;
+
+  double log_ratio = 0.0;
+  double multiplier = quality_multiplier(input.center_sigma);
+  if (keyframes_[input.i].node >= 0) {
+    LogMedianRatio ratio = {};
+    depth_.load(input.depth_i);
+    if (depth_.over_two_view(input.i, &ratio)) {
+      log_ratio = -ratio.log_ratio;
+      if (input.center_sigma == 0.0 && ratio.scatter > config_.scatter_gate) {
+        LogLine line;
+        line << "pair " << input.i << "," << input.j << " refused: depth ratio scatter "
+             << ratio.scatter << " over " << config_.scatter_gate;
+        line.send(config_.log, LogLevel::kWarning);
+        refuse_pair(input.j);
+        return Status::kOk;
+      }
+    } else {
+      multiplier *= kUnknownRatioMultiplier;
+      LogLine line;
+      line << "pair " << input.i << "," << input.j
+           << ": no depth in common with the pair before, its length is a guess";
+      line.send(config_.log, LogLevel::kWarning);
+    }
+  }
+  accept_pair(input, log_ratio, multiplier);
+  return broken_ ? Status::kInternal : Status::kOk;
+}
+
+void Session::accept_pair(const TwoViewInput& input, double log_ratio, double multiplier) {
+  const bool paper = config_.preset == Preset::kPaper;
+  const bool starts = keyframes_[input.i].node < 0;
+  if (starts) {
+    const int32_t source = keyframes_.pose_source(input.i);
+    start_segment(input.i, source >= 0 ? graph_.pose(keyframes_[source].node) : Sim3());
+  }
+  if (starts || paper) {
+    depth_.load(input.depth_i);
+    depth_.keep_two_view(input.i);
+  }
+  const Keyframe& i = keyframes_[input.i];
+  const Sim3& T_world_i = graph_.pose(i.node);
+  const double live_ratio = paper ? 1.0 : std::exp(config_.live_scale_exponent * log_ratio);
+  give_node(input.j, T_world_i * Sim3::scaling(live_ratio) * input.T_i_j, i.segment);
+  depth_.load(input.depth_j);
+  depth_.keep_two_view(input.j);
+  if (broken_) return;
+
+  if (config_.factor(FactorKind::kTwoView).enabled) {
+    const Sim3 Z_i_j = paper ? input.T_i_j : two_view_measurement(input.T_i_j, std::exp(log_ratio));
+    int32_t edge = -1;
+    holds(graph_.add_two_view(i.node, keyframes_[input.j].node, Z_i_j,
+                              edge_weight(FactorKind::kTwoView, multiplier, false), &edge));
+  }
+  tracking_.pair_accepted();
+  if (i.state == Tracking::kInit) keyframes_[input.i].state = tracking_.state();
+  keyframes_[input.j].state = tracking_.state();
+  settled_ = input.j;
+}
+
+void Session::start_segment(int32_t keyframe, const Sim3& T_world_kf) {
+  give_node(keyframe, T_world_kf, next_segment_);
+  ++next_segment_;
+  ++counts_.segments;
+}
+
+void Session::give_node(int32_t keyframe, const Sim3& T_world_kf, int32_t segment) {
+  Keyframe& target = keyframes_[keyframe];
+  if (!holds(graph_.add_node(NodeKind::kKeyframe, T_world_kf, &target.node))) return;
+  target.held_from = -1;
+  target.segment = segment;
+  ++counts_.posed_keyframes;
+  counts_.last_posed = std::max(counts_.last_posed, keyframe);
+}
+
+void Session::refuse_pair(int32_t j) {
+  tracking_.pair_refused();
+  Keyframe& keyframe = keyframes_[j];
+  keyframe.held_from = keyframes_.pose_source(j - 1);
+  keyframe.state = tracking_.state();
+  if (keyframe.held_from >= 0) {
+    keyframe.segment = keyframes_[keyframe.held_from].segment;
+    counts_.last_posed = j;
+  }
+  ++counts_.pairs_refused;
+  settled_ = j;
+}
+
+}  // namespace unisim

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Results out, by copy.
+#include "core/session.hpp"
+
+namespace unisim {
+namespace {
+
+/// 0 held or unknown, 1 pair only, 2 in a submap, 3 in two or a closed loop.
+int32_t confidence_of(const Keyframe& keyframe) {
+  if (keyframe.node < 0) return 0;
+  if (keyframe.loop_count > 0 || keyframe.window_count > 1) return 3;
+  return keyframe.window_count == 1 ? 2 : 1;
+}
+
+}  // namespace
+
+Status Session::pose(int32_t keyframe, PoseOutput* pose) const {
+  if (!keyframes_.has(keyframe)) return Status::kInvalidArgument;
+  const int32_t source = keyframes_.pose_source(keyframe);
+  if (source < 0) return Status::kNotReady;
+  const Keyframe& asked = keyframes_[keyframe];
+  pose->T_world_kf = graph_.pose(keyframes_[source].node);
+  pose->timestamp_ns = asked.timestamp_ns;
+  pose->state = asked.state;
+  pose->confidence = confidence_of(asked);
+  pose->submap = asked.best_submap;
+  pose->segment = asked.segment;
+  return Status::kOk;
+}
+
+}  // namespace unisim

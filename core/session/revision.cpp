@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// A submap measured anew: its edges get the better numbers.
+#include <algorithm>
+#include <cmath>
+
+#include "core/session.hpp"
+
+namespace unisim {
+
+Status Session::update_submap(const SubmapUpdate& update) {
+  if (!submaps_.has(update.submap)) return Status::kInvalidArgument;
+  Submap& submap = submaps_[update.submap];
+  if (submap.node < 0 || update.T_submap_kf.size() != submap.count) {
+    return Status::kInvalidArgument;
+  }
+  const double gate = submap.is_loop ? config_.sigma_gate_loop : config_.sigma_gate;
+  if (update.center_sigma > gate) {
+    LogLine line;
+    line << "new measurement of submap " << update.submap << " refused: center sigma "
+         << update.center_sigma << " over " << gate;
+    line.send(config_.log, LogLevel::kWarning);
+    refuse_submap(submap.is_loop);
+    return Status::kOk;
+  }
+  if (update.center_sigma > 0.0) {
+    submap.center_sigma = update.center_sigma;
+    submap.multiplier = quality_multiplier(update.center_sigma);
+  }
+  update_views(update, &submap);
+  update_shared(update);
+  return broken_ ? Status::kInternal : Status::kOk;
+}
+
+void Session::update_views(const SubmapUpdate& update, Submap* submap) {
+  const Sim3 T_origin = update.T_submap_kf[submap->origin];
+  for (int32_t k = 0; k < submap->count; ++k) {
+    SubmapView& view = submaps_.view(*submap, k);
+    view.T_submap_kf = between(T_origin, update.T_submap_kf[k]);
+    view.log_rho += update.log_depth_ratio[k];
+    depth_.rescale_submap(update.submap, k, std::exp(update.log_depth_ratio[k]));
+    if (view.bridge >= 0) {
+      holds(graph_.set_measurement(view.bridge, view_measurement(view)));
+      holds(graph_.set_multiplier(view.bridge, submap->multiplier));
+    }
+    if (view.anchor >= 0) {
+      holds(graph_.set_log_ratio(view.anchor, view.log_rho));
+      holds(graph_.set_multiplier(view.anchor, submap->multiplier));
+    }
+  }
+  // The unit may be another one: the submap's scale follows, so that its origin keyframe stays.
+  const double unit = std::exp(-update.log_depth_ratio[submap->origin]);
+  holds(graph_.set_pose(submap->node, graph_.pose(submap->node) * Sim3::scaling(unit)));
+}
+
+void Session::update_shared(const SubmapUpdate& update) {
+  for (SharedKeyframe& shared : submaps_.shared()) {
+    if (shared.m == update.submap) shared.log_c += update.log_depth_ratio[shared.view_m];
+    if (shared.n == update.submap) shared.log_c -= update.log_depth_ratio[shared.view_n];
+  }
+  for (const SharedKeyframe& shared : submaps_.shared()) {
+    if (shared.m != update.submap && shared.n != update.submap) continue;
+    const Submap& m = submaps_[shared.m];
+    const Submap& n = submaps_[shared.n];
+    const double multiplier = std::min(m.multiplier, n.multiplier);
+    if (shared.tie >= 0) {
+      const Sim3& T_submap_n_kf = submaps_.view(n, shared.view_n).T_submap_kf;
+      holds(graph_.set_tie_measurement(shared.tie, shared_measurement(shared), T_submap_n_kf));
+      holds(graph_.set_multiplier(shared.tie, multiplier));
+    }
+    if (shared.scale >= 0) {
+      holds(graph_.set_log_ratio(shared.scale, median_log_c(shared.m, shared.n)));
+      holds(graph_.set_multiplier(shared.scale, multiplier));
+    }
+  }
+}
+
+}  // namespace unisim

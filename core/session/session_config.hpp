@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// What a session is made with, and the sizes that follow from it.
+#pragma once
+
+#include <cstdint>
+
+#include "core/graph/edge.hpp"
+#include "core/graph/graph.hpp"
+#include "core/map/depth_book.hpp"
+#include "core/session/event_log.hpp"
+#include "core/solve/solver_capacity.hpp"
+
+namespace unisim {
+
+inline constexpr int32_t kFactorKinds = 5;
+inline constexpr int32_t kMaxViews = 64;  ///< keyframes of one prediction
+
+/// How measurements enter the graph; numbers of UNISIM_PRESET_*.
+enum class Preset : int32_t {
+  kConsistent = 0,  ///< depth ratios inside the pose edges, two-view depth of the pair before
+  kPaper = 1        ///< scale 1 in pose edges, two-view depth of the pair after
+};
+
+/// Weight and use of one factor kind.
+struct FactorSetting {
+  double information = 1.0;  ///< > 0
+  bool enabled = true;
+};
+
+/// Checked configuration; meaning and ranges as in unisim.h.
+struct SessionConfig {
+  Preset preset = Preset::kConsistent;
+  int32_t window_size = 16;
+  int32_t window_overlap = 2;
+  int32_t max_keyframes = 1024;
+  int32_t max_submaps = 0;
+  int32_t max_loops = 64;
+  GridSize grid = {80, 60};
+  FactorSetting factors[kFactorKinds];  ///< by FactorKind
+  double huber_delta = 1.0;
+  double loop_delta = 0.1;
+  double live_scale_exponent = 0.5;
+  double confidence_drop = 0.25;
+  double sigma_reference = 0.001;
+  double sigma_gate = 0.005;
+  double sigma_gate_loop = 0.002;
+  double scatter_gate = 0.13;
+  int32_t lost_after = 3;
+  int32_t max_iterations = 10;
+  LogSink log;
+
+  const FactorSetting& factor(FactorKind kind) const { return factors[static_cast<int>(kind)]; }
+};
+
+/// Every array length of a session.
+struct SessionCapacity {
+  int32_t keyframes = 0;
+  int32_t windows = 0;       ///< submaps of windows
+  int32_t submaps = 0;       ///< with loops
+  int32_t views = 0;         ///< over all submaps
+  int32_t shared = 0;        ///< tie edges
+  int32_t window_pairs = 0;  ///< pairs of submaps that share keyframes: scale edges
+  GraphCapacity graph;
+  SolverCapacity solver;
+  DepthBookSize depth;
+};
+
+/// Lengths that hold whatever is fed within the configured numbers.
+SessionCapacity session_capacity(const SessionConfig& config);
+
+}  // namespace unisim

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+// Multi-view predictions: checks, depth ratios, quality, place in the world.
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/depth/nth_element.hpp"
+#include "core/graph/bridge.hpp"
+#include "core/session.hpp"
+
+namespace unisim {
+
+Status Session::check_views(const SubmapInput& input, bool is_loop, int32_t* window) const {
+  const int32_t count = input.keyframes.size();
+  for (int32_t k = 0; k < count; ++k) {
+    if (!keyframes_.has(input.keyframes[k])) return Status::kInvalidArgument;
+    if (k > 0 && input.keyframes[k] <= input.keyframes[k - 1]) return Status::kInvalidArgument;
+  }
+  const int32_t first = input.keyframes[0];
+  const int32_t last = input.keyframes[count - 1];
+  if (is_loop) {
+    if (last > settled_) return Status::kNotReady;
+  } else {
+    *window = windows_.find(first, last);
+    if (*window < 0) return Status::kInvalidArgument;
+    if (windows_.at(*window).last() > settled_for_windows()) return Status::kNotReady;
+  }
+  const bool room = count <= config_.window_size && submaps_.has_room(count) &&
+                    (!is_loop || counts_.loops < config_.max_loops);
+  return room ? Status::kOk : Status::kCapacity;
+}
+
+Status Session::add_submap(const SubmapInput& input, bool is_loop, int32_t* id) {
+  int32_t window = -1;
+  const Status status = check_views(input, is_loop, &window);
+  if (!is_ok(status)) return status;
+  const Window answered = is_loop ? Window{} : windows_.at(window);
+  if (!is_loop) windows_.remove(window);
+
+  const int32_t made = submaps_.append(input.keyframes.size());
+  Submap& submap = submaps_[made];
+  submap.is_loop = is_loop;
+  submap.center_sigma = input.center_sigma;
+  measure_views(input, is_loop, &submap);
+  if (!choose_origin(&submap) || !judge_submap(&submap, made)) {
+    submaps_.remove_last();
+    refuse_submap(is_loop);
+    *id = -1;
+    return Status::kOk;
+  }
+  place_submap(&submap);
+  adopt_views(input, submap);
+  add_view_edges(made);
+  add_shared_edges(made);
+  if (!is_loop) keep_shared_depth(input, made, answered);
+  count_cover(made);
+  ++(is_loop ? counts_.loops : counts_.windows);
+  if (broken_) return Status::kInternal;
+  *id = made;
+  return Status::kOk;
+}
+
+void Session::measure_views(const SubmapInput& input, bool is_loop, Submap* submap) {
+  float scatters[kMaxViews];
+  int32_t measured = 0;
+  for (int32_t k = 0; k < submap->count; ++k) {
+    SubmapView& view = submaps_.view(*submap, k);
+    view.keyframe = input.keyframes[k];
+    view.segment = keyframes_[view.keyframe].node >= 0 ? keyframes_[view.keyframe].segment : -1;
+    view.T_submap_kf = input.T_submap_kf[k];
+    measure_view(input.depth[k], !is_loop, !is_loop, &view);
+    if (view.measured) scatters[measured++] = static_cast<float>(view.scatter);
+  }
+  submap->scatter = measured > 0 ? median({scatters, measured}) : 0.0;
+}
+
+void Session::measure_view(const DepthMap& depth, bool may_adopt, bool may_share,
+                           SubmapView* view) {
+  if (!depth_.load(depth)) return;
+  LogMedianRatio ratio = {};
+  if (view->segment < 0) {
+    // No pair stands behind this keyframe: the submap itself gives it its pose and unit.
+    view->used = may_adopt;
+  } else if (depth_.over_two_view(view->keyframe, &ratio)) {
+    view->log_rho = ratio.log_ratio;
+    view->scatter = ratio.scatter;
+    view->measured = true;
+    view->used = true;
+  }
+  if (!may_share || !view->used) return;
+  const DepthStore::Source source = depth_.submap_source(view->keyframe);
+  if (source.keyframe < 0 || !depth_.over_submap(view->keyframe, &ratio)) return;
+  view->log_c = -ratio.log_ratio;
+  view->shared_submap = source.submap;
+  view->shared_view = source.view;
+}
+
+/// The measured view nearest to the centre, out of the oldest segment; views are re-anchored to it.
+bool Session::choose_origin(Submap* submap) {
+  const int32_t centre = submap->count / 2;
+  int32_t best = -1;
+  int32_t used = 0;
+  for (int32_t k = 0; k < submap->count; ++k) {
+    const SubmapView& view = submaps_.view(*submap, k);
+    used += view.used ? 1 : 0;
+    if (!view.measured) continue;
+    const int32_t oldest = best < 0 ? view.segment : submaps_.view(*submap, best).segment;
+    const bool nearer = best < 0 || std::abs(k - centre) < std::abs(best - centre);
+    if (view.segment < oldest || (view.segment == oldest && nearer)) best = k;
+  }
+  constexpr int32_t kFewestViews = 2;
+  if (best < 0 || used < kFewestViews) return false;
+  submap->origin = best;
+  const Sim3 T_origin = submaps_.view(*submap, best).T_submap_kf;
+  for (int32_t k = 0; k < submap->count; ++k) {
+    Sim3& T_submap_kf = submaps_.view(*submap, k).T_submap_kf;
+    T_submap_kf = between(T_origin, T_submap_kf);
+  }
+  return true;
+}
+
+bool Session::judge_submap(Submap* submap, int32_t id) {
+  const bool known = submap->center_sigma > 0.0;
+  const double sigma_gate = submap->is_loop ? config_.sigma_gate_loop : config_.sigma_gate;
+  const double value = known ? submap->center_sigma : submap->scatter;
+  const double gate = known ? sigma_gate : config_.scatter_gate;
+  submap->multiplier = quality_multiplier(submap->center_sigma);
+  if (value <= gate) return true;
+  LogLine line;
+  line << (submap->is_loop ? "loop" : "window") << " of keyframes "
+       << submaps_.view(submaps_[id], 0).keyframe << ".."
+       << submaps_.view(submaps_[id], submap->count - 1).keyframe
+       << " refused: " << (known ? "center sigma " : "depth ratio scatter ") << value << " over "
+       << gate;
+  line.send(config_.log, LogLevel::kWarning);
+  return false;
+}
+
+void Session::refuse_submap(bool is_loop) {
+  ++(is_loop ? counts_.loops_refused : counts_.submaps_refused);
+}
+
+/// S_m = [(s_o / rho_mo) R_o, t_o] of its origin; segments its other views belong to follow.
+void Session::place_submap(Submap* submap) {
+  const SubmapView& origin = submaps_.view(*submap, submap->origin);
+  const Sim3& T_world_origin = graph_.pose(keyframes_[origin.keyframe].node);
+  const Sim3 T_world_submap = T_world_origin * Sim3::scaling(std::exp(-origin.log_rho));
+  if (!holds(graph_.add_node(NodeKind::kSubmap, T_world_submap, &submap->node))) return;
+  for (int32_t k = 0; k < submap->count; ++k) {
+    const SubmapView& view = submaps_.view(*submap, k);
+    if (view.measured && keyframes_[view.keyframe].segment != origin.segment) {
+      join_segment(*submap, keyframes_[view.keyframe].segment, origin.segment);
+      if (submap->is_loop) tracking_.segments_joined_by_loop();
+    }
+  }
+}
+
+/// Move a segment as a whole so that its view nearest to the submap's centre lies where the submap
+/// sees it.
+void Session::join_segment(const Submap& submap, int32_t segment, int32_t into) {
+  const int32_t centre = submap.count / 2;
+  int32_t best = -1;
+  for (int32_t k = 0; k < submap.count; ++k) {
+    const SubmapView& view = submaps_.view(submap, k);
+    if (!view.measured || keyframes_[view.keyframe].segment != segment) continue;
+    if (best < 0 || std::abs(k - centre) < std::abs(best - centre)) best = k;
+  }
+  const SubmapView& view = submaps_.view(submap, best);
+  const Sim3 T_world_kf =
+      graph_.pose(submap.node) * bridge_measurement(view.T_submap_kf, std::exp(view.log_rho));
+  const Sim3 correction = T_world_kf * graph_.pose(keyframes_[view.keyframe].node).inverse();
+  for (int32_t id = 0; id < submaps_.size(); ++id) {
+    const Submap& other = submaps_[id];
+    if (other.node < 0 || other.node == submap.node) continue;
+    const int32_t origin = submaps_.view(other, other.origin).keyframe;
+    if (keyframes_[origin].segment != segment) continue;
+    holds(graph_.set_pose(other.node, correction * graph_.pose(other.node)));
+  }
+  for (int32_t id = 0; id < keyframes_.size(); ++id) {
+    Keyframe& keyframe = keyframes_[id];
+    if (keyframe.segment != segment) continue;
+    keyframe.segment = into;
+    if (keyframe.node < 0) continue;
+    holds(graph_.set_pose(keyframe.node, correction * graph_.pose(keyframe.node)));
+  }
+  --counts_.segments;
+  LogLine line;
+  line << "segment " << segment << " joined to segment " << into << " at keyframe "
+       << view.keyframe;
+  line.send(config_.log, LogLevel::kInfo);
+}
+
+/// Keyframes without a pose of their own get the submap's, in the submap's unit.
+void Session::adopt_views(const SubmapInput& input, const Submap& submap) {
+  if (broken_) return;
+  const int32_t segment = submaps_.view(submap, submap.origin).segment;
+  for (int32_t k = 0; k < submap.count; ++k) {
+    const SubmapView& view = submaps_.view(submap, k);
+    if (!view.used || view.measured) continue;
+    give_node(view.keyframe, graph_.pose(submap.node) * view.T_submap_kf, segment);
+    depth_.load(input.depth[k]);
+    depth_.keep_two_view(view.keyframe);
+  }
+}
+
+}  // namespace unisim
