@@ -29,6 +29,11 @@ Renderer::Renderer(const Scene& scene, const Camera& camera) : scene_(scene), ca
       corner_rays_.push_back(camera.ray(column - 0.5, row - 0.5));
     }
   }
+  for (int top = 0; top < camera.height; top += kTileSize) {
+    for (int left = 0; left < camera.width; left += kTileSize) {
+      tiles_.push_back(make_tile(left, top));
+    }
+  }
 }
 
 Renderer::Planes Renderer::place(const Eigen::Isometry3d& T_world_cam) const {
@@ -60,22 +65,29 @@ Renderer::Planes Renderer::place(const Eigen::Isometry3d& T_world_cam) const {
   return planes;
 }
 
-void Renderer::find_candidates(const Planes& planes, const Tile& tile,
-                               Candidates* candidates) const {
-  Vector2f low = corner_ray(tile.left, tile.top);
+Renderer::Tile Renderer::make_tile(int left, int top) const {
+  Tile tile;
+  tile.left = left;
+  tile.top = top;
+  tile.right = std::min(left + kTileSize, camera_.width);
+  tile.bottom = std::min(top + kTileSize, camera_.height);
+  Vector2f low = corner_ray(left, top);
   Vector2f high = low;
-  for (int row = tile.top; row <= tile.bottom; ++row) {
-    for (int column = tile.left; column <= tile.right; ++column) {
+  for (int row = top; row <= tile.bottom; ++row) {
+    for (int column = left; column <= tile.right; ++column) {
       low = low.cwiseMin(corner_ray(column, row));
       high = high.cwiseMax(corner_ray(column, row));
     }
   }
-  // Inner sides of the tile's frustum and the near plane; a face wholly outside one is out.
-  Eigen::Matrix<double, 5, 3> sides;
-  sides << 1, 0, -low.x(), -1, 0, high.x(), 0, 1, -low.y(), 0, -1, high.y(), 0, 0, 1;
+  tile.sides << 1, 0, -low.x(), -1, 0, high.x(), 0, 1, -low.y(), 0, -1, high.y(), 0, 0, 1;
+  return tile;
+}
+
+void Renderer::find_candidates(const Planes& planes, const Tile& tile, Candidates* candidates) {
+  // A face wholly outside one side of the frustum, or nearer than any, is out.
   candidates->clear();
   for (const Plane& plane : planes) {
-    const Eigen::Matrix<double, 5, 4> inside = sides * plane.corners;
+    const Eigen::Matrix<double, 5, 4> inside = tile.sides * plane.corners;
     const bool outside = (inside.topRows<4>().rowwise().maxCoeff().array() < 0).any() ||
                          inside.row(4).maxCoeff() < kNearest;
     if (!outside) {
@@ -169,13 +181,9 @@ void Renderer::render(const Eigen::Isometry3d& T_world_cam, ColorImage* colors,
                       DepthImage* depth) const {
   const Planes planes = place(T_world_cam);
   Candidates candidates;
-  for (int top = 0; top < camera_.height; top += kTileSize) {
-    for (int left = 0; left < camera_.width; left += kTileSize) {
-      const Tile tile{left, top, std::min(left + kTileSize, camera_.width),
-                      std::min(top + kTileSize, camera_.height)};
-      find_candidates(planes, tile, &candidates);
-      render_tile(tile, candidates, colors, depth);
-    }
+  for (const Tile& tile : tiles_) {
+    find_candidates(planes, tile, &candidates);
+    render_tile(tile, candidates, colors, depth);
   }
 }
 

@@ -45,18 +45,20 @@ class Renderer {
     float u = 0;
     float v = 0;
   };
-  /// First and last pixel of a tile, last not included.
+  /// First and last pixel of a tile, last not included, and the inner sides of its frustum.
   struct Tile {
     int left = 0;
     int top = 0;
     int right = 0;
     int bottom = 0;
+    Eigen::Matrix<double, 5, 3> sides;
   };
   using Planes = std::vector<Plane>;
   using Candidates = std::vector<const Plane*>;
 
   Planes place(const Eigen::Isometry3d& T_world_cam) const;
-  void find_candidates(const Planes& planes, const Tile& tile, Candidates* candidates) const;
+  Tile make_tile(int left, int top) const;
+  static void find_candidates(const Planes& planes, const Tile& tile, Candidates* candidates);
   void render_tile(const Tile& tile, const Candidates& candidates, ColorImage* colors,
                    DepthImage* depth) const;
   static Hit nearest(const Candidates& candidates, const Eigen::Vector2f& ray);
@@ -71,6 +73,7 @@ class Renderer {
   Camera camera_;
   std::vector<Eigen::Vector2f> center_rays_;
   std::vector<Eigen::Vector2f> corner_rays_;
+  std::vector<Tile> tiles_;
 };
 
 }  // namespace unisim::synth

@@ -21,6 +21,13 @@ struct Footprint {
   float dt_dv = 0;
 };
 
+/// One level of a texture; a texel is red, green, blue and a byte of padding.
+struct TextureLevel {
+  int columns = 0;
+  int rows = 0;
+  std::vector<std::array<uint8_t, 4>> texels;
+};
+
 class Texture {
  public:
   explicit Texture(const Canvas& canvas);
@@ -29,17 +36,7 @@ class Texture {
   Color sample(const Footprint& footprint) const;
 
  private:
-  struct Level {
-    int columns = 0;
-    int rows = 0;
-    std::vector<std::array<uint8_t, 4>> texels;
-  };
-
-  static Level halve(const Level& level);
-  static Eigen::Vector4f bilinear(const Level& level, float s, float t);
-  Eigen::Vector4f trilinear(float level, float s, float t) const;
-
-  std::vector<Level> levels_;
+  std::vector<TextureLevel> levels_;
 };
 
 }  // namespace unisim::synth
