@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /** @file sequence.h  Opens a recorded sequence of images as a source of frames.
  *
- *  | format   | what it is |
- *  |----------|------------------------------------------------------------------------------------|
- *  | tum      | folder with rgb.txt or associations.txt; groundtruth.txt | | 7scenes  | folder with
- * frame-NNNNNN.color.png or .jpg, also one level down in seq-NN; *.pose.txt | | euroc    | folder
- * with mav0/cam0/data.csv and data/; state_groundtruth_estimate0/data.csv      | | kitti    |
- * odometry root with one sequence, or the folder sequences/NN; times.txt; poses/NN.txt | | replica
- * | folder with results/frame*.jpg and traj.txt                                        | | images
- * | folder of images, or a pattern with * and ?; in natural order                      | | video |
- * any file OpenCV can play                                                           |
+ *  | format  | what it is                                                                     |
+ *  |---------|--------------------------------------------------------------------------------|
+ *  | tum     | folder with rgb.txt or associations.txt; groundtruth.txt                       |
+ *  | 7scenes | folder with frame-NNNNNN.color.png or .jpg, or above it (seq-NN); *.pose.txt   |
+ *  | euroc   | folder with mav0/cam0/data.csv and data/; state_groundtruth_estimate0/data.csv |
+ *  | kitti   | odometry root with one sequence, or sequences/NN; times.txt; poses/NN.txt      |
+ *  | replica | folder with results/frame*.jpg and traj.txt                                    |
+ *  | images  | folder of images, or a pattern with * and ?; in natural order                  |
+ *  | video   | any file OpenCV can play                                                       |
  */
 #ifndef UNISIM_DRIVERS_REPLAY_SEQUENCE_H
 #define UNISIM_DRIVERS_REPLAY_SEQUENCE_H

@@ -48,26 +48,29 @@ std::string time_range(const Trajectory& trajectory) {
 }
 
 [[noreturn]] void refuse(const Trajectory& ground_truth, const Trajectory& estimate,
-                         double max_dt_s) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%g", max_dt_s);
-  const bool mixed = ground_truth.has_times() != estimate.has_times();
-  throw InputError("no poses within " + std::string(text) + " s of each other: " +
-                   time_range(ground_truth) + ", " + time_range(estimate) + ": " +
-                   (mixed ? "frame numbers and times do not compare, give both in one of them"
-                          : "give files with the same clock or a larger --max-dt"));
+                         const std::string& what, const std::string& advice) {
+  throw InputError(what + ": " + time_range(ground_truth) + ", " + time_range(estimate) + ": " +
+                   advice);
 }
 
 }  // namespace
 
 std::vector<IndexPair> associate(const Trajectory& ground_truth, const Trajectory& estimate,
                                  double max_dt_s) {
+  if (ground_truth.poses.empty() || estimate.poses.empty()) {
+    throw InputError((estimate.poses.empty() ? estimate : ground_truth).name +
+                     ": has no poses to compare");
+  }
+  if (ground_truth.has_times() != estimate.has_times()) {
+    refuse(ground_truth, estimate, "frame numbers and times do not compare",
+           "give both files with times or both as KITTI");
+  }
   const bool estimate_longer = estimate.poses.size() > ground_truth.poses.size();
   const std::vector<Pose>& few = estimate_longer ? ground_truth.poses : estimate.poses;
   const std::vector<Pose>& many = estimate_longer ? estimate.poses : ground_truth.poses;
   std::vector<IndexPair> pairs;
   const bool sorted = std::is_sorted(many.begin(), many.end(), before);
-  for (size_t k = 0; k < few.size() && !many.empty(); ++k) {
+  for (size_t k = 0; k < few.size(); ++k) {
     const double time_s = few[k].time_s;
     const size_t match =
         sorted ? nearest_sorted(many, time_s, max_dt_s) : nearest_unsorted(many, time_s, max_dt_s);
@@ -75,8 +78,9 @@ std::vector<IndexPair> associate(const Trajectory& ground_truth, const Trajector
     pairs.push_back(estimate_longer ? IndexPair{k, match} : IndexPair{match, k});
   }
   if (pairs.empty()) {
-    if (few.empty()) throw InputError("no poses to compare: a trajectory is empty");
-    refuse(ground_truth, estimate, max_dt_s);
+    char what[80];
+    std::snprintf(what, sizeof what, "no poses within %g s of each other", max_dt_s);
+    refuse(ground_truth, estimate, what, "give files with the same clock or a larger --max-dt");
   }
   return pairs;
 }

@@ -17,7 +17,8 @@ struct IndexPair {
 /// Gives each pose of the shorter trajectory the pose of the other that is nearest in time, if it
 /// is within max_dt_s: the rule of evo. A pose of the longer one may serve twice. O(n log m) for
 /// sorted times.
-/// @throws InputError when no pose has a partner; it names both time ranges
+/// @throws InputError when no pose has a partner, or one has frame numbers and the other times; it
+/// names both ranges
 std::vector<IndexPair> associate(const Trajectory& ground_truth, const Trajectory& estimate,
                                  double max_dt_s);
 

@@ -87,11 +87,29 @@ void add_files(CLI::App* command, Arguments* arguments) {
       ->capture_default_str();
 }
 
+// An option that takes one of a few words.
+template <typename Value>
+void add_choice(CLI::App* command, const std::string& name,
+                const std::map<std::string, Value>& choices, Value* value,
+                const std::string& help) {
+  std::vector<std::string> words;
+  for (const auto& choice : choices) words.push_back(choice.first);
+  const auto set = [value, choices](const std::string& word) { *value = choices.at(word); };
+  command->add_option_function<std::string>(name, set, help)->check(CLI::IsMember(words));
+}
+
 void add_alignment(CLI::App* command, Arguments* arguments) {
-  const std::map<std::string, Alignment> names = {
+  const std::map<std::string, Alignment> choices = {
       {"none", Alignment::kNone}, {"se3", Alignment::kSe3}, {"sim3", Alignment::kSim3}};
-  command->add_option("--align", arguments->alignment, "none, se3 or sim3 (default sim3)")
-      ->transform(CLI::CheckedTransformer(names).description(""));
+  add_choice(command, "--align", choices, &arguments->alignment,
+             "alignment of the estimate (default sim3)");
+}
+
+std::string above_zero(const std::string& text) {
+  double value = 0;
+  return sequence::parse_number(text, &value) && value > 0
+             ? ""
+             : "'" + text + "' is not a number above 0";
 }
 
 void add_commands(CLI::App* app, Arguments* arguments) {
@@ -106,12 +124,11 @@ void add_commands(CLI::App* app, Arguments* arguments) {
   add_files(rpe, arguments);
   add_alignment(rpe, arguments);
   rpe->add_option("--delta", arguments->step.delta, "length of the step")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero, "above 0")
       ->capture_default_str();
   const std::map<std::string, StepUnit> units = {
       {"frames", StepUnit::kFrames}, {"m", StepUnit::kMetres}, {"s", StepUnit::kSeconds}};
-  rpe->add_option("--unit", arguments->step.unit, "frames, m or s (default frames)")
-      ->transform(CLI::CheckedTransformer(units).description(""));
+  add_choice(rpe, "--unit", units, &arguments->step.unit, "of the step (default frames)");
   rpe->add_flag("--all-pairs", arguments->step.all_pairs, "a step from every pose");
 
   CLI::App* cloud =
@@ -151,6 +168,9 @@ int main(int argc, char** argv) {
   } catch (const unisim::eval::InputError& error) {
     std::fprintf(stderr, "unisim-eval: %s\n", error.what());
     return unisim::eval::kExitInput;
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "unisim-eval: %s: see unisim-eval --help\n", error.what());
+    return unisim::eval::kExitUsage;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "unisim-eval: %s\n", error.what());
     return 1;

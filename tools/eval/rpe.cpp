@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace unisim::eval {
@@ -84,9 +85,10 @@ Steps find_steps(const std::vector<Pose>& poses, const RpeStep& step) {
 }
 
 void check(const RpeStep& step) {
-  if (!(step.delta > 0) || !std::isfinite(step.delta)) throw InputError("--delta must be above 0");
+  if (!(step.delta > 0) || !std::isfinite(step.delta))
+    throw std::invalid_argument("--delta must be above 0");
   if (step.unit == StepUnit::kFrames && step.delta != std::floor(step.delta)) {
-    throw InputError("--delta must be a whole number for --unit frames");
+    throw std::invalid_argument("--delta must be a whole number for --unit frames");
   }
 }
 

@@ -39,7 +39,8 @@ struct Rpe {
 /// Steps as evo takes them: frames counts associated poses, metres is the path of the aligned
 /// estimate (all_pairs: the nearest length, within 10 %). Seconds, which evo has not: the first
 /// pose at least delta - 1 ms later.
-/// @throws InputError as associate() and align(), and when no step fits
+/// @throws InputError as associate() and align(), and when no step fits; std::invalid_argument for
+/// a delta that is not above 0 or, in frames, not whole
 Rpe relative_pose_error(const Trajectory& ground_truth, const Trajectory& estimate,
                         Alignment alignment, double max_dt_s, const RpeStep& step);
 
