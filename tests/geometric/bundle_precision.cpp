@@ -144,8 +144,7 @@ TEST_CASE("posterior of the intrinsics agrees with a dense covariance") {
   dense.problem.intrinsics.free_k1 = k1_free;
   BundleAdjuster adjuster(dense.problem.capacity());
   adjuster.solve(&dense.problem, square_loss());
-  const std::int32_t cameras[] = {0, 3, 6};
-  const BundlePrecision precision = adjuster.precision(dense.problem, square_loss(), cameras, 3);
+  const BundlePrecision precision = adjuster.precision(dense.problem, square_loss(), nullptr, 0);
   REQUIRE(precision.valid);
   const int n = dense.size() - (k1_free ? 0 : 1);
   const Eigen::MatrixXd covariance = pseudo_inverse(dense.information().topLeftCorner(n, n));

@@ -83,8 +83,12 @@ class BundleAdjuster {
   /// in. log_focal_sigma and k1_sigma: posterior of the whole problem times residual_sigma; a freed
   /// intrinsic that the data do not see comes out at its prior sigma (or very large without prior).
   ///
-  /// @param cameras  camera indices in `problem`, at least 3; fixed ones have no spread of their
-  /// own
+  /// Cost: a factorisation, then 3 * count triangular solves; a window of a large map is best put
+  /// into a problem of its own (1 ms for 16 cameras).
+  ///
+  /// @param cameras  camera indices in `problem`; fixed ones have no spread of their own
+  /// @param count    3 or more; 0: only the intrinsics are asked for, center_sigma stays 0 and
+  ///                 median_depth is that of all cameras
   /// @return valid = false when the system cannot be factorised or nothing is observed
   BundlePrecision precision(const BundleProblem& problem, const BundleOptions& options,
                             const std::int32_t* cameras, int count);

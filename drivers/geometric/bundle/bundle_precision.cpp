@@ -90,18 +90,20 @@ BundlePrecision BundleAdjuster::precision(const BundleProblem& problem,
                                           const BundleOptions& options, const std::int32_t* cameras,
                                           int count) {
   BundlePrecision out;
-  if (count < 3 || prepare(problem, options) != BundleStatus::kIterationCap) return out;
+  if (count < 0 || count == 1 || count == 2 ||
+      prepare(problem, options) != BundleStatus::kIterationCap)
+    return out;
   for (int i = 0; i < count; ++i) {
     if (cameras[i] < 0 || cameras[i] >= problem.camera_count()) return out;
   }
   if (!system_->factorize(problem, options, kGaugeLambda)) return out;
   measure_residuals(problem, options, cameras, count, &out);
-  const CenterMap map(problem, *system_, cameras, count);
-  if (system_->observation_count() == 0 || !(out.median_depth > 0.0) || map.degenerate())
-    return out;
-
-  const double variance = center_variance(map);
-  out.center_sigma = std::sqrt(variance) * out.residual_sigma / out.median_depth;
+  if (system_->observation_count() == 0 || !(out.median_depth > 0.0)) return out;
+  if (count > 0) {
+    const CenterMap map(problem, *system_, cameras, count);
+    if (map.degenerate()) return out;
+    out.center_sigma = std::sqrt(center_variance(map)) * out.residual_sigma / out.median_depth;
+  }
   const Eigen::Matrix2d covariance = system_->intrinsics_covariance();
   out.log_focal_sigma = std::sqrt(covariance(0, 0)) * out.residual_sigma;
   out.k1_sigma = std::sqrt(covariance(1, 1)) * out.residual_sigma;
@@ -143,7 +145,7 @@ void BundleAdjuster::measure_residuals(const BundleProblem& problem, const Bundl
       const Eigen::Vector3d y = problem.camera(seen.camera).pose.apply(point.position);
       if (!(seen.weight > 0.0) || !(y.z() > kMinDepth)) continue;
       norms.push_back(reprojection_value(constants, y, seen.u, seen.v, seen.weight).norm());
-      if (std::find(cameras, cameras + count, seen.camera) != cameras + count) {
+      if (count == 0 || std::find(cameras, cameras + count, seen.camera) != cameras + count) {
         depths.push_back(y.z());
       }
     }
