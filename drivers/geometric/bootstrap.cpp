@@ -19,6 +19,8 @@ constexpr double kEssentialGate = 1.5;        // pixels at the reference diagona
 constexpr double kMaxRotationResidual = 1.0;  // pixels at the reference diagonal
 constexpr double kMinPairParallaxRad = 0.3 * 0.017453292519943295;
 constexpr double kMinMedianParallaxRad = 2.0 * 0.017453292519943295;
+constexpr double kLastChanceParallaxRad = 1.2 * 0.017453292519943295;
+constexpr double kLastChanceShare = 0.35;  // of the reference's features still in common
 constexpr int kMinPlaced = 40;
 constexpr double kMinPlacedShare = 0.5;
 constexpr double kMinPosedShare = 0.6;
@@ -61,10 +63,9 @@ StartOutcome Bootstrap::attempt(State* state, int32_t id, MapAdjustment* adjustm
                                 LandmarkGrowth* growth, KeyframePose* poses) {
   reference_ = std::max({reference_, state->segment_start, id - kMaxGap});
   if (id <= reference_) return StartOutcome::kNotMoving;
-  correspondences(*state, id);
-  if (from_.size() < kMinCommon) {
-    reference_ = std::min(id, reference_ + 1);
-    return StartOutcome::kTooFewFeatures;
+  // Tracks that die fast leave too few in common with an old reference: take a newer one.
+  for (correspondences(*state, id); from_.size() < kMinCommon; correspondences(*state, id)) {
+    if (++reference_ >= id) return StartOutcome::kTooFewFeatures;
   }
   std::vector<double> displacement(from_.size());
   for (size_t i = 0; i < from_.size(); ++i) displacement[i] = cv::norm(to_[i] - from_[i]);
@@ -109,8 +110,10 @@ bool Bootstrap::relative_pose(State* state, int32_t id) {
   first.posed = second.posed = true;
   double parallax = 0;
   const int placed = place_landmarks(state, id, &parallax);
-  return placed >= kMinPlaced && placed >= kMinPlacedShare * static_cast<double>(from_.size()) &&
-         parallax >= kMinMedianParallaxRad;
+  const double common = static_cast<double>(from_.size());
+  const bool last_chance = common < kLastChanceShare * first.observations;
+  return placed >= kMinPlaced && placed >= kMinPlacedShare * common &&
+         parallax >= (last_chance ? kLastChanceParallaxRad : kMinMedianParallaxRad);
 }
 
 int Bootstrap::place_landmarks(State* state, int32_t id, double* median_parallax) {
