@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// A range of values on a drawing.
+#include "tools/replay/report/axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unisim::report {
+
+double tick_step(double low, double high, int wanted) {
+  const double rough = (high - low) / std::max(wanted, 1);
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  const double ratio = rough / power;
+  if (ratio <= 1.0) return power;
+  if (ratio <= 2.0) return 2.0 * power;
+  return ratio <= 5.0 ? 5.0 * power : 10.0 * power;
+}
+
+std::vector<double> ticks(double low, double high, double step) {
+  std::vector<double> values;
+  const auto first = std::ceil(low / step - 1e-9);
+  const auto last = std::floor(high / step + 1e-9);
+  constexpr double kMost = 100.0;
+  for (double k = first; k <= std::min(last, first + kMost); k += 1.0) values.push_back(k * step);
+  return values;
+}
+
+void Range::add(double value) {
+  if (!std::isfinite(value)) return;
+  low_ = std::min(low_, value);
+  high_ = std::max(high_, value);
+}
+
+double Range::pad(double margin) const {
+  const double size = high_ - low_;
+  const double least = 1e-6 * std::max({std::abs(low_), std::abs(high_), 1e-3});
+  return size > least ? margin * size : std::max(0.5 * least, 0.5 * std::abs(high_) * 0.1);
+}
+
+}  // namespace unisim::report
