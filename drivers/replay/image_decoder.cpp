@@ -69,18 +69,22 @@ bool ImageDecoder::decode(const std::string& path, unisim_image* image, std::str
     *message = "is truncated";
     return false;
   }
-  try {
-    if (cv::imdecode(file_, cv::IMREAD_ANYCOLOR, &image_).empty()) {
-      *message = "is not an image that can be decoded";
-      return false;
-    }
-  } catch (const cv::Exception&) {
+  // Without a decoder for it imdecode() leaves the image before in place: asked for first.
+  if (!cv::haveImageReader(path) || !decode_buffer()) {
     *message = "is not an image that can be decoded";
     return false;
   }
   if (!size_.fits(image_, message)) return false;
   *image = view_of(image_);
   return true;
+}
+
+bool ImageDecoder::decode_buffer() {
+  try {
+    return !cv::imdecode(file_, cv::IMREAD_ANYCOLOR, &image_).empty();
+  } catch (const cv::Exception&) {
+    return false;
+  }
 }
 
 }  // namespace unisim::sequence

@@ -34,6 +34,7 @@ class ImageDecoder {
 
  private:
   bool read_file(const std::string& path, std::string* message);
+  bool decode_buffer();
 
   std::vector<uint8_t> file_;
   cv::Mat image_;
