@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Installed: libunisim (shared, static), its two headers, the CMake package, unisim.pc, the programs.
+# Installed: libunisim (shared, static), its two headers, the CMake package, unisim.pc. Programs and
+# drivers install themselves where they are built.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS unisim unisim_static EXPORT unisim-targets
@@ -25,9 +26,3 @@ file(RELATIVE_PATH UNISIM_PC_TO_PREFIX
   ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 configure_file(${CMAKE_CURRENT_LIST_DIR}/unisim.pc.in ${PROJECT_BINARY_DIR}/unisim.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/unisim.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
-
-foreach(program unisim-replay unisim-eval unisim-synth unisim-arena)
-  if(TARGET ${program})
-    install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  endif()
-endforeach()

@@ -8,8 +8,8 @@
 namespace unisim {
 namespace {
 
-// Smaller moves are the rounding of a converged map: relative to the keyframe's unit, rad, log.
-constexpr double kLeastMove = 1e-6;
+// Smaller moves are the solver's tolerance on a converged map: keyframe's unit, rad, log-scale.
+constexpr double kLeastMove = 1e-4;
 
 bool moved(const Sim3& before, const Sim3& after) {
   return sim3_log(between(before, after)).cwiseAbs().maxCoeff() > kLeastMove;

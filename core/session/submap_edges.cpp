@@ -3,7 +3,6 @@
 // submaps.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "core/depth/nth_element.hpp"
 #include "core/graph/bridge.hpp"

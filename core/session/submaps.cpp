@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Multi-view predictions: checks, depth ratios, quality, place in the world.
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
 
 #include "core/depth/nth_element.hpp"
 #include "core/graph/bridge.hpp"

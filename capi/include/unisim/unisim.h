@@ -350,7 +350,7 @@ typedef struct unisim_report {
   double initial_cost;
   double final_cost;
   int32_t map_revision;  /**< grows with every optimisation that moved the past */
-  int32_t first_changed; /**< keyframes whose pose moved by more than 1e-6, -1 if none */
+  int32_t first_changed; /**< keyframes that moved by more than 1e-4, -1 if none */
   int32_t last_changed;
   int32_t reserved;
   double jump_translation; /**< how the newest pose moved: length in the world's unit */

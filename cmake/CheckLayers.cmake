@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: MIT
+# Which layer may include what. Run: cmake -DROOT=<repository> -P cmake/CheckLayers.cmake
+#
+#     tools --> drivers --> capi (unisim.h) --> core --> Eigen
+#
+# A driver may include what lies in its own folder, the pipeline and the C headers beside the folders;
+# outside packages only drivers and tools may see.
+
+set(core_standard_headers
+  algorithm array cmath cstddef cstdint cstring limits new type_traits utility)
+set(capi_standard_headers ${core_standard_headers})
+set(failures "")
+
+# unisim_scan(FOLDER ALLOWED...): every include of the folder must match one of the expressions.
+function(unisim_scan folder)
+  file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.hpp
+    ${ROOT}/${folder}/*.c ${ROOT}/${folder}/*.cpp)
+  set(found "")
+  foreach(file IN LISTS files)
+    file(STRINGS ${ROOT}/${file} lines REGEX "^[ \t]*#[ \t]*include")
+    foreach(line IN LISTS lines)
+      string(REGEX REPLACE "^[ \t]*#[ \t]*include[ \t]*[<\"]([^>\"]*)[>\"].*" "\\1" header "${line}")
+      set(allowed FALSE)
+      foreach(expression IN LISTS ARGN)
+        if(header MATCHES "${expression}")
+          set(allowed TRUE)
+          break()
+        endif()
+      endforeach()
+      if(NOT allowed)
+        list(APPEND found "${file}: ${header}")
+      endif()
+    endforeach()
+  endforeach()
+  set(failures ${failures} ${found} PARENT_SCOPE)
+endfunction()
+
+# unisim_scan_forbidden(FOLDER FORBIDDEN...): no include of the folder may match one of these.
+function(unisim_scan_forbidden folder)
+  file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.hpp
+    ${ROOT}/${folder}/*.c ${ROOT}/${folder}/*.cpp)
+  set(found "")
+  foreach(file IN LISTS files)
+    file(STRINGS ${ROOT}/${file} lines REGEX "^[ \t]*#[ \t]*include")
+    foreach(line IN LISTS lines)
+      string(REGEX REPLACE "^[ \t]*#[ \t]*include[ \t]*[<\"]([^>\"]*)[>\"].*" "\\1" header "${line}")
+      foreach(expression IN LISTS ARGN)
+        if(header MATCHES "${expression}")
+          list(APPEND found "${file}: ${header}")
+        endif()
+      endforeach()
+    endforeach()
+  endforeach()
+  set(failures ${failures} ${found} PARENT_SCOPE)
+endfunction()
+
+list(JOIN core_standard_headers "|" core_standard)
+list(JOIN capi_standard_headers "|" capi_standard)
+
+# core and capi state all they may see.
+unisim_scan(core "^core/" "^Eigen/" "^(${core_standard})$")
+unisim_scan(capi/src "^capi/src/" "^core/session\\.hpp$" "^unisim/unisim\\.h$" "^(${capi_standard})$")
+unisim_scan(capi/include "^unisim/(unisim|version)\\.h$" "^std(def|int)\\.h$")
+unisim_scan(capi/examples "^unisim/unisim\\.h$" "^[a-z]+\\.h$")
+
+# Above, only what is ours is restricted: the core is reached through unisim.h alone.
+unisim_scan_forbidden(drivers "^core/" "^capi/" "^tools/" "^tests/")
+unisim_scan_forbidden(tools "^core/" "^capi/" "^tests/")
+
+# The C headers of drivers are plain C.
+file(GLOB driver_headers RELATIVE ${ROOT} ${ROOT}/drivers/*.h ${ROOT}/drivers/*/*.h)
+foreach(header IN LISTS driver_headers)
+  file(STRINGS ${ROOT}/${header} lines REGEX "^[ \t]*#[ \t]*include[ \t]*<c[a-z]+>|^namespace|^class ")
+  foreach(line IN LISTS lines)
+    list(APPEND failures "${header}: ${line}")
+  endforeach()
+endforeach()
+
+# Tests of these folders see unisim.h only.
+foreach(folder alloc fuzz)
+  unisim_scan_forbidden(tests/${folder} "^core/" "^drivers/" "^tools/")
+endforeach()
+
+if(failures)
+  list(JOIN failures "\n  " text)
+  message(FATAL_ERROR "includes that cross a layer:\n  ${text}")
+endif()

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// From create to destroy the library asks the heap for nothing.
+#include <cstdlib>
+#include <memory>
+
+#include "tests/alloc/malloc_counter.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/random_session.hpp"
+
+using namespace unisim::test;
+
+TEST_CASE("the counter counts") {
+  const int64_t before = heap_calls();
+  std::unique_ptr<int> block(new int(5));
+  void* volatile raw = std::malloc(100);
+  std::free(raw);
+  CHECK(heap_calls() >= before + 3);
+}
+
+TEST_CASE("a long random session makes no heap call") {
+  const auto overlap = GENERATE(2, 8);
+  unisim_config config;
+  REQUIRE(unisim_config_init(&config, sizeof config) == UNISIM_OK);
+  config.max_keyframes = 600;
+  config.window_overlap = overlap;
+  size_t size = 0;
+  REQUIRE(unisim_arena_size(&config, &size) == UNISIM_OK);
+  std::unique_ptr<unsigned char[]> arena(new unsigned char[size]);
+  unisim_session* session = nullptr;
+  const int64_t before_create = heap_calls();
+  unisim_status status = unisim_session_create(&session, &config, arena.get(), size);
+  const int64_t in_create = heap_calls() - before_create;
+  REQUIRE(status == UNISIM_OK);
+  CHECK(in_create == 0);
+
+  RandomCaller caller(session, config, 17U, Habits{});
+  const int64_t before = heap_calls();
+  while (caller.step()) {
+  }
+  status = unisim_session_reset(session);
+  unisim_session_destroy(session);
+  const int64_t during = heap_calls() - before;
+  CHECK(during == 0);
+  CHECK(status == UNISIM_OK);
+  CHECK(caller.count(UNISIM_OK) > 2000);
+  CHECK(caller.count(UNISIM_ERR_INTERNAL) == 0);
+}
