@@ -32,9 +32,11 @@ void Range::add(double value) {
 }
 
 double Range::pad(double margin) const {
+  if (margin == 0.0) return 0.0;
   const double size = high_ - low_;
-  const double least = 1e-6 * std::max({std::abs(low_), std::abs(high_), 1e-3});
-  return size > least ? margin * size : std::max(0.5 * least, 0.5 * std::abs(high_) * 0.1);
+  const double largest = std::max(std::abs(low_), std::abs(high_));
+  const bool flat = size <= 1e-9 * largest || size == 0.0;
+  return flat ? std::max(0.05 * largest, 1e-3) : margin * size;
 }
 
 }  // namespace unisim::report

@@ -22,7 +22,8 @@ double tick_step(double low, double high, int wanted);
 /// Multiples of `step` within the range.
 std::vector<double> ticks(double low, double high, double step);
 
-/// The smallest range that holds all finite values, widened by `margin` of itself; never empty.
+/// The smallest range that holds all finite values, widened by `margin` of itself. With a margin a
+/// single value gets some room too.
 class Range {
  public:
   void add(double value);

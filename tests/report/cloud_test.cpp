@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+// The fused cloud: where points lie, which are kept, whose depth counts.
+#include "tools/replay/cloud.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/catch.hpp"
+
+using unisim::replay::Cloud;
+using unisim::replay::CloudOptions;
+using unisim::replay::CloudPoses;
+
+namespace {
+
+constexpr int kWidth = 160;
+constexpr int kHeight = 120;
+constexpr double kFocal = 100.0;
+
+struct Vertex {
+  float x, y, z;
+  uint8_t red, green, blue;
+  float confidence;
+};
+
+/// Reads a cloud back. Checks the header on the way.
+std::vector<Vertex> read_ply(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  size_t count = 0;
+  while (std::getline(file, line) && line != "end_header") {
+    if (line.rfind("element vertex ", 0) == 0) count = std::stoul(line.substr(15));
+  }
+  std::vector<Vertex> vertices(count);
+  for (Vertex& v : vertices) {
+    char raw[19];
+    REQUIRE(file.read(raw, sizeof raw));
+    std::memcpy(&v.x, raw, 12);
+    std::memcpy(&v.red, raw + 12, 3);
+    std::memcpy(&v.confidence, raw + 15, 4);
+  }
+  CHECK(file.peek() == std::ifstream::traits_type::eof());
+  return vertices;
+}
+
+/// Left half red, right half blue.
+struct Picture {
+  std::vector<uint8_t> pixels = std::vector<uint8_t>(size_t{3} * kWidth * kHeight);
+  unisim_frame frame{};
+  Picture() {
+    for (size_t k = 0; k < size_t{kWidth} * kHeight; ++k) {
+      const bool left = k % kWidth < kWidth / 2;
+      pixels[3 * k + (left ? 2 : 0)] = 200;
+    }
+    frame.image = {pixels.data(), kWidth, kHeight, 3 * kWidth, UNISIM_PIXEL_BGR8};
+  }
+};
+
+constexpr int kColumns = 4;
+constexpr int kRows = 3;
+
+/// A window of one keyframe on a 4x3 grid.
+struct Window {
+  std::vector<float> depth = std::vector<float>(kColumns * kRows, 2.0F);
+  std::vector<float> confidence = std::vector<float>(kColumns * kRows, 1.0F);
+  int32_t id;
+  unisim_depth_map map{};
+  unisim_window_prediction prediction{};
+  explicit Window(int32_t keyframe, double sigma = 0.001) : id(keyframe) {
+    map = {depth.data(), confidence.data(), kColumns, kRows};
+    prediction.count = 1;
+    prediction.keyframe_ids = &id;
+    prediction.depth = &map;
+    prediction.focal_px = kFocal;
+    prediction.center_sigma = sigma;
+  }
+};
+
+unisim_pose pose_of(int32_t id, int32_t segment = 0) {
+  unisim_pose pose{};
+  pose.keyframe_id = id;
+  pose.T_world_kf = {{0, 0, 0, 1}, {0, 0, 0}, 1};
+  pose.confidence = 2;
+  pose.segment = segment;
+  return pose;
+}
+
+struct TempFile {
+  std::string folder = "/tmp/unisim-cloud-XXXXXX";
+  TempFile() { REQUIRE(mkdtemp(folder.data()) != nullptr); }
+  ~TempFile() { std::filesystem::remove_all(folder); }
+  TempFile(const TempFile&) = delete;
+  TempFile& operator=(const TempFile&) = delete;
+  std::string path() const { return folder + "/map.ply"; }
+};
+
+std::vector<Vertex> fuse(const Cloud& cloud, const CloudPoses& poses, double k1 = 0.0) {
+  const TempFile file;
+  const int64_t count = cloud.write(file.path(), poses, k1);
+  std::vector<Vertex> vertices = read_ply(file.path());
+  CHECK(count == static_cast<int64_t>(vertices.size()));
+  return vertices;
+}
+
+}  // namespace
+
+TEST_CASE("points lie where pose, scale, focal length and depth put them") {
+  const Picture picture;
+  Cloud cloud;
+  cloud.on_keyframe(0, picture.frame);
+  cloud.on_window(0, Window(0).prediction);
+  unisim_pose pose = pose_of(0);
+  const double half = std::sqrt(0.5);
+  pose.T_world_kf = {{0, 0, half, half}, {10, 20, 30}, 7};  // a quarter turn about z; scale unused
+  const std::vector<Vertex> vertices = fuse(cloud, {{pose}, {0.5}});
+  REQUIRE(vertices.size() == kColumns * kRows);
+  // First cell: centre at 1/8 of the width, 1/6 of the height; depth 2 in submap units is 1.
+  const double x = (0.125 - 0.5) * kWidth / kFocal;
+  const double y = (1.0 / 6 - 0.5) * kHeight / kFocal;
+  CHECK(vertices[0].x == Approx(10 - y));
+  CHECK(vertices[0].y == Approx(20 + x));
+  CHECK(vertices[0].z == Approx(31));
+  CHECK(vertices[0].red == 200);
+  CHECK(vertices[0].blue == 0);
+  CHECK(vertices[3].red == 0);
+  CHECK(vertices[3].blue == 200);
+  CHECK(vertices[0].confidence == 1.0F);
+}
+
+TEST_CASE("radial distortion is taken out") {
+  const Picture picture;
+  Cloud cloud;
+  cloud.on_keyframe(0, picture.frame);
+  cloud.on_window(0, Window(0).prediction);
+  const auto plain = fuse(cloud, {{pose_of(0)}, {1.0}});
+  const auto curved = fuse(cloud, {{pose_of(0)}, {1.0}}, -0.1);
+  const double x = (0.125 - 0.5) * kWidth / kFocal;
+  const double y = (1.0 / 6 - 0.5) * kHeight / kFocal;
+  CHECK(curved[0].x / plain[0].x == Approx(1 - 0.1 * (x * x + y * y)));
+  CHECK(curved[0].z == plain[0].z);
+}
+
+TEST_CASE("the least confident quarter is left out, and pixels without depth") {
+  const Picture picture;
+  Window window(0);
+  for (size_t k = 0; k < window.confidence.size(); ++k) {
+    window.confidence[k] = static_cast<float>(k);
+  }
+  Cloud cloud;
+  cloud.on_keyframe(0, picture.frame);
+  cloud.on_window(0, window.prediction);
+  const auto vertices = fuse(cloud, {{pose_of(0)}, {1.0}});
+  REQUIRE(vertices.size() == 9);
+  CHECK(vertices[0].confidence == 3.0F);
+
+  window.depth[11] = 0.0F;
+  window.depth[10] = std::nanf("");
+  Cloud holes;
+  holes.on_keyframe(0, picture.frame);
+  holes.on_window(0, window.prediction);
+  const auto fewer = fuse(holes, {{pose_of(0)}, {1.0}});
+  CHECK(fewer.size() == 8);  // of ten with depth the lowest two
+  CHECK(fewer.back().confidence == 9.0F);
+}
+
+TEST_CASE("equal confidence drops nothing") {
+  const Picture picture;
+  Window window(0);
+  window.map.confidence = nullptr;
+  Cloud cloud;
+  cloud.on_keyframe(0, picture.frame);
+  cloud.on_window(0, window.prediction);
+  CHECK(fuse(cloud, {{pose_of(0)}, {1.0}}).size() == kColumns * kRows);
+}
+
+TEST_CASE("a confidence asked for keeps measured pixels only") {
+  const Picture picture;
+  Window window(0);
+  std::fill(window.confidence.begin(), window.confidence.end(), 0.5F);
+  window.confidence[5] = 1.0F;
+  Cloud cloud(CloudOptions{0.25, unisim::replay::kMeasuredConfidence});
+  cloud.on_keyframe(0, picture.frame);
+  cloud.on_window(0, window.prediction);
+  CHECK(fuse(cloud, {{pose_of(0)}, {1.0}}).size() == 1);
+}
+
+TEST_CASE("a view has the depth of its most confident submap") {
+  const Picture picture;
+  Window good(0, 0.001);
+  Window bad(0, 0.004);
+  std::fill(bad.depth.begin(), bad.depth.end(), 5.0F);
+  for (const bool good_first : {true, false}) {
+    Cloud cloud;
+    cloud.on_keyframe(0, picture.frame);
+    cloud.on_window(0, good_first ? good.prediction : bad.prediction);
+    cloud.on_window(1, good_first ? bad.prediction : good.prediction);
+    CHECK(fuse(cloud, {{pose_of(0)}, {1.0, 1.0}})[0].z == 2.0F);
+  }
+  Window unknown(0, 0.0);
+  std::fill(unknown.confidence.begin(), unknown.confidence.end(), 9.0F);
+  Cloud cloud;
+  cloud.on_keyframe(0, picture.frame);
+  cloud.on_window(0, bad.prediction);
+  cloud.on_window(1, unknown.prediction);
+  CHECK(fuse(cloud, {{pose_of(0)}, {1.0, 1.0}})[0].z == 5.0F);
+}
+
+TEST_CASE("a revision changes the depth of its submap alone") {
+  const Picture picture;
+  Cloud cloud;
+  for (int32_t id = 0; id < 2; ++id) {
+    cloud.on_keyframe(id, picture.frame);
+    cloud.on_window(id, Window(id).prediction);
+  }
+  const double ratio = std::log(1.5);
+  unisim_window_revision revision{};
+  revision.count = 1;
+  revision.log_depth_ratio = &ratio;
+  cloud.on_revision(1, revision);
+  const auto vertices = fuse(cloud, {{pose_of(0), pose_of(1)}, {1.0, 1.0}});
+  CHECK(vertices.front().z == 2.0F);
+  CHECK(vertices.back().z == 3.0F);
+}
+
+TEST_CASE("only the longest segment and supported poses give points") {
+  const Picture picture;
+  Cloud cloud;
+  for (int32_t id = 0; id < 4; ++id) {
+    cloud.on_keyframe(id, picture.frame);
+    cloud.on_window(id, Window(id).prediction);
+  }
+  std::vector<unisim_pose> poses = {pose_of(0, 0), pose_of(1, 1), pose_of(2, 1), pose_of(3, 1)};
+  poses[3].confidence = 0;
+  CHECK(fuse(cloud, {poses, {1, 1, 1, 1}}).size() == size_t{2} * kColumns * kRows);
+}
+
+TEST_CASE("a large depth map is thinned to the grid, a missing image is grey") {
+  unisim_frame frame{};
+  frame.image = {nullptr, kWidth, kHeight, kWidth, UNISIM_PIXEL_GRAY8};
+  const std::vector<float> depth(size_t{640} * 480, 1.0F);
+  const unisim_depth_map map = {depth.data(), nullptr, 640, 480};
+  Window window(0);
+  window.prediction.depth = &map;
+  Cloud cloud;
+  cloud.on_keyframe(0, frame);
+  cloud.on_window(0, window.prediction);
+  const auto vertices = fuse(cloud, {{pose_of(0)}, {1.0}});
+  CHECK(vertices.size() == size_t{80} * 60);
+  CHECK(vertices[0].green == 128);
+}
+
+TEST_CASE("a cloud that cannot be written says where") {
+  const Cloud cloud;
+  try {
+    cloud.write("/proc/none/map.ply", {}, 0.0);
+    FAIL("no exception");
+  } catch (const std::runtime_error& error) {
+    CHECK(std::string(error.what()).find("/proc/none/map.ply: cannot be written") == 0);
+  }
+}
