@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// unisim-eval as a program: figures, JSON, plot, exit codes, one line on stderr.
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/support/catch.hpp"
+#include "tests/support/temp_folder.hpp"
+
+namespace {
+
+// A square of 2 m and the same drawn twice as large, with one corner 1 m too high.
+constexpr const char* kTruth =
+    "0 0 0 0 0 0 0 1\n1 2 0 0 0 0 0 1\n2 2 2 0 0 0 0 1\n3 0 2 0 0 0 0 1\n";
+constexpr const char* kEstimate =
+    "# half time steps are not in the truth\n0 0 0 0 0 0 0 1\n1.01 4 0 1 0 0 0 1\n1.5 9 9 9 0 0 0 "
+    "1\n"
+    "2 4 4 0 0 0 0 1\nnan 1 1 1 0 0 0 1\n3 0 4 0 0 0 0 1\n";
+
+class Program {
+ public:
+  Program() {
+    folder_.write("gt.txt", kTruth);
+    folder_.write("est.txt", kEstimate);
+  }
+
+  /// Runs in the folder. @return exit code
+  int run(const std::string& arguments) {
+    const std::string command = "cd '" + folder_.path() + "' && '" UNISIM_EVAL_PROGRAM "' " +
+                                arguments + " > out.txt 2> err.txt";
+    const int status = std::system(command.c_str());
+    out = content("out.txt");
+    err = content("err.txt");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  /// Runs and expects an error of one line that names `part`.
+  void require_failure(const std::string& arguments, int code, const std::string& part) {
+    INFO(arguments);
+    REQUIRE(run(arguments) == code);
+    INFO(err);
+    REQUIRE(std::count(err.begin(), err.end(), '\n') == 1);
+    REQUIRE(err.find(part) != std::string::npos);
+    REQUIRE(out.empty());
+  }
+
+  const TempFolder& folder() const { return folder_; }
+  std::string out, err;
+
+ private:
+  std::string content(const std::string& name) const {
+    std::ifstream file(folder_ / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  TempFolder folder_;
+};
+
+}  // namespace
+
+TEST_CASE("ate prints its protocol and figures") {
+  Program program;
+  REQUIRE(program.run("ate gt.txt est.txt --align none --json") == 0);
+  const auto json = nlohmann::json::parse(program.out);
+  REQUIRE(json["metric"] == "ate");
+  REQUIRE(json["protocol"]["alignment"] == "none");
+  REQUIRE(json["protocol"]["associated"] == 4);
+  REQUIRE(json["protocol"]["max_dt_s"] == 0.02);
+  REQUIRE(json["protocol"]["estimate"]["skipped_lines"] == 1);
+  // Errors 0, sqrt(5), sqrt(8), 2.
+  REQUIRE(json["rmse"].get<double>() == Approx(std::sqrt(17.0 / 4)));
+  REQUIRE(json["max"].get<double>() == Approx(std::sqrt(8.0)));
+  REQUIRE(json["scale"] == 1.0);
+  REQUIRE(program.run("ate gt.txt est.txt --align none") == 0);
+  REQUIRE(program.out.find("alignment            none\n") != std::string::npos);
+  REQUIRE(program.out.find("associated           4\n") != std::string::npos);
+  REQUIRE(program.out.find("rmse                 2.061552813 m\n") != std::string::npos);
+  REQUIRE(program.err.empty());
+}
+
+TEST_CASE("ate aligns by sim3 unless told otherwise and draws a plot") {
+  Program program;
+  REQUIRE(program.run("ate gt.txt est.txt --json --plot top.png") == 0);
+  const auto json = nlohmann::json::parse(program.out);
+  REQUIRE(json["protocol"]["alignment"] == "sim3");
+  REQUIRE(json["scale"].get<double>() < 0.6);
+  const cv::Mat plot = cv::imread(program.folder() / "top.png");
+  REQUIRE(plot.cols == 900);
+  REQUIRE(cv::norm(plot, cv::Mat(plot.size(), plot.type(), cv::Scalar::all(255)), cv::NORM_INF) >
+          100);
+}
+
+TEST_CASE("rpe takes step and unit") {
+  Program program;
+  REQUIRE(program.run("rpe gt.txt est.txt --align none --delta 2 --unit frames --json") == 0);
+  auto json = nlohmann::json::parse(program.out);
+  REQUIRE(json["pairs"] == 1);
+  REQUIRE(json["protocol"]["delta"] == 2);
+  // Two frames on the truth has moved by (2, 2, 0), the estimate by (4, 4, 0).
+  REQUIRE(json["translation"]["rmse"].get<double>() == Approx(std::sqrt(8.0)));
+  REQUIRE(json["rotation"]["rmse"] == 0.0);
+  REQUIRE(program.run("rpe gt.txt est.txt --align none --delta 1 --unit s --json") == 0);
+  json = nlohmann::json::parse(program.out);
+  REQUIRE(json["protocol"]["delta_unit"] == "s");
+  REQUIRE(json["pairs"] == 2);
+}
+
+TEST_CASE("cloud compares PLY files, moved as the trajectories align") {
+  Program program;
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+      "z\nend_header\n";
+  program.folder().write("gt.ply", header + "0 0 0\n1 0 0\n0 1 0\n");
+  program.folder().write("est.ply", header + "0 0 0\n2 0 0\n0 2 0\n");
+  REQUIRE(program.run("cloud gt.ply est.ply --json") == 0);
+  REQUIRE(nlohmann::json::parse(program.out)["accuracy"].get<double>() ==
+          Approx(std::sqrt(2.0 / 3)));
+  program.folder().write("twice.txt",
+                         "0 0 0 0 0 0 0 1\n1 4 0 0 0 0 0 1\n2 4 4 0 0 0 0 1\n3 0 4 0 0 0 0 1\n");
+  REQUIRE(program.run("cloud gt.ply est.ply --trajectories gt.txt twice.txt --json") == 0);
+  const auto json = nlohmann::json::parse(program.out);
+  REQUIRE(json["accuracy"].get<double>() < 1e-9);
+  REQUIRE(json["completeness"].get<double>() < 1e-9);
+  REQUIRE(json["chamfer"].get<double>() < 1e-9);
+}
+
+TEST_CASE("bad usage is exit code 2") {
+  Program program;
+  program.require_failure("", 2, "--help");
+  program.require_failure("ate gt.txt", 2, "EST");
+  program.require_failure("ate gt.txt est.txt --align se2", 2, "se2");
+  program.require_failure("ate gt.txt est.txt --nonsense", 2, "nonsense");
+  program.require_failure("rpe gt.txt est.txt --delta 0", 2, "above 0");
+  program.require_failure("rpe gt.txt est.txt --delta 1.5", 2, "whole");
+  program.require_failure("rpe gt.txt est.txt --unit km", 2, "km");
+  REQUIRE(program.run("--help") == 0);
+}
+
+TEST_CASE("bad input is exit code 3") {
+  Program program;
+  program.folder().write("words.txt", "no poses here\n");
+  program.folder().write("late.txt", "1000 0 0 0 0 0 0 1\n1001 1 0 0 0 0 0 1\n");
+  program.folder().write("line.txt", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n");
+  program.require_failure("ate gt.txt missing.txt", 3, "missing.txt");
+  program.require_failure("ate gt.txt words.txt", 3, "words.txt:1");
+  program.require_failure("ate gt.txt late.txt", 3, "1000.000000 to 1001.000000 s");
+  program.require_failure("ate gt.txt line.txt", 3, "on a line");
+  program.require_failure("rpe gt.txt est.txt --delta 50", 3, "smaller --delta");
+  program.require_failure("cloud gt.txt est.txt", 3, "not a PLY file");
+}
+
+TEST_CASE("a plot that cannot be written is exit code 4, the figures are kept") {
+  Program program;
+  REQUIRE(program.run("ate gt.txt est.txt --plot missing/folder/top.png") == 4);
+  REQUIRE(program.out.find("rmse") != std::string::npos);
+  REQUIRE(program.err.find("missing/folder/top.png") != std::string::npos);
+}
