@@ -20,10 +20,9 @@ namespace unisim::pipeline {
 
 struct Options {
   KeyframeConfig keyframes;
-  int32_t queue_frames = 8;    ///< frames decoded ahead
-  bool every_frame = false;    ///< also pose the frames between keyframes
-  bool realtime = false;       ///< keep to the recorded times, drop late frames
-  bool decode_images = false;  ///< decode even when the predictor needs no images (for listeners)
+  int32_t queue_frames = 8;  ///< frames decoded ahead
+  bool every_frame = false;  ///< also pose the frames between keyframes
+  bool realtime = false;     ///< keep to the recorded times, drop late frames
 };
 
 /// A pose as it was first given out, before any later correction.

@@ -3,6 +3,7 @@
 #include "tools/replay/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <vector>
@@ -21,6 +22,10 @@ const std::map<std::string, uint32_t> kFactors = {
     {"scale", UNISIM_FACTOR_SCALE},
     {"v2s", UNISIM_FACTOR_BRIDGE | UNISIM_FACTOR_SCALE_ANCHOR},
     {"s2s", UNISIM_FACTOR_TIE | UNISIM_FACTOR_SCALE}};
+
+// Windows cut from running tracks cost little, and more of them hold the map together better: ATE
+// on 500 frames of redkitchen 0.0077 m with overlap 2, 0.0069 with 8, 0.0068 with 12.
+constexpr int32_t kTrackedOverlap = 8;
 
 /// What the command line says, before it meets the configuration file.
 struct Given {
@@ -59,8 +64,9 @@ void add_method_options(CLI::App* app, Options* options, Given* given) {
   app->add_option("--stride", given->stride, "every N-th frame is a keyframe (default: by motion)")
       ->check(CLI::PositiveNumber);
   app->add_flag("--every-frame", given->every_frame, "also pose the frames between keyframes");
-  app->add_option("--window", given->window, "keyframes of a submap");
-  app->add_option("--overlap", given->overlap, "keyframes shared by neighbouring submaps");
+  app->add_option("--window", given->window, "keyframes of a submap (default: 16)");
+  app->add_option("--overlap", given->overlap,
+                  "keyframes shared by neighbouring submaps (default: 8)");
   app->add_option("--config", given->config, "TOML file, see --print-config");
   app->add_flag("--print-config", options->print_config, "print the effective configuration, end");
   app->add_flag("--no-loop", given->no_loop, "close no loops (none are closed in this version)");
@@ -98,7 +104,11 @@ void refuse_not_built(const Options& options, const Given& given) {
 void apply(const Given& given, Settings* settings) {
   if (given.stride) settings->pipeline.keyframes.stride = *given.stride;
   if (given.window) settings->session.window_size = *given.window;
-  if (given.overlap) settings->session.window_overlap = *given.overlap;
+  if (given.overlap) {
+    settings->session.window_overlap = *given.overlap;
+  } else if (!settings->window_overlap_given) {
+    settings->session.window_overlap = std::min(kTrackedOverlap, settings->session.window_size / 2);
+  }
   if (given.focal) settings->geometric.focal_px = *given.focal;
   if (given.every_frame) settings->pipeline.every_frame = true;
   if (given.realtime) settings->pipeline.realtime = true;

@@ -93,6 +93,7 @@ void ProgressLine::print_json(const pipeline::Progress& progress) const {
 }
 
 void ProgressLine::on_message(const std::string& line) {
+  messages_.push_back(line);
   if (style_ == Style::kJson) {
     std::cout << nlohmann::ordered_json({{"type", "message"}, {"text", line}}).dump() << std::endl;
     return;

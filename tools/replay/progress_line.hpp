@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <string>
+#include <vector>
 
 #include "drivers/pipeline/listener.hpp"
 
@@ -26,6 +27,9 @@ class ProgressLine : public pipeline::Listener {
   void on_progress(const pipeline::Progress& progress) override;
   void on_message(const std::string& line) override;
 
+  /// The lines told so far; the pipeline bounds their number.
+  const std::vector<std::string>& messages() const { return messages_; }
+
   /// Ends the line of a terminal.
   void finish();
 
@@ -41,6 +45,7 @@ class ProgressLine : public pipeline::Listener {
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_ = start_;
   bool line_open_ = false;
+  std::vector<std::string> messages_;
 };
 
 }  // namespace unisim::replay

@@ -7,12 +7,15 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "tools/replay/cloud.hpp"
 #include "tools/replay/failure.hpp"
 #include "tools/replay/heap_counter.hpp"
 #include "tools/replay/inputs.hpp"
 #include "tools/replay/output_folder.hpp"
+#include "tools/replay/page.hpp"
 #include "tools/replay/pose_files.hpp"
 #include "tools/replay/progress_line.hpp"
+#include "tools/replay/report/report.hpp"
 #include "tools/replay/run_data.hpp"
 #include "tools/replay/scores.hpp"
 #include "tools/replay/summary.hpp"
@@ -26,7 +29,9 @@ constexpr int32_t kUnknownLengthKeyframes = 1024;
 std::vector<std::string> output_names(const Options& options) {
   std::vector<std::string> names = {"trajectory.tum", "trajectory_live.tum", "keyframes.csv",
                                     "summary.json"};
+  names.emplace_back("map.ply");
   if (options.settings.pipeline.every_frame) names.emplace_back("trajectory_frames.tum");
+  if (options.report) names.emplace_back("report.html");
   return names;
 }
 
@@ -42,6 +47,18 @@ void prepare(pipeline::Pipeline* pipeline) {
   if (preparation.answer == Answer::kReady) return;
   const int code = preparation.answer == Answer::kNoMemory ? kExitLimit : kExitUsage;
   throw Failure(code, preparation.message);
+}
+
+/// The map is drawn in the frame of trajectory.tum.
+void write_map(const Run& run, const Cloud& cloud, const CloudPoses& poses, OutputFolder* folder) {
+  folder->write("map.ply", [&](const std::filesystem::path& path) {
+    cloud.write(path, poses, run.result.predictor.radial_k1);
+  });
+}
+
+void write_page(const Run& run, const std::vector<std::string>& messages, OutputFolder* folder) {
+  if (!run.options.report) return;
+  folder->write_text("report.html", report::report_html(page_data(run, messages)));
 }
 
 int exit_code(pipeline::Outcome outcome) {
@@ -146,8 +163,9 @@ int replay(const Options& options, const std::atomic<bool>& stop) {
   for (const std::string& note : {sequence_note, predictor_note}) {
     if (!note.empty()) progress.on_message(note);
   }
+  Cloud cloud;
   pipeline::Pipeline pipeline(options.settings.pipeline, source.get(), predictor.get(), config,
-                              {&progress}, &stop, heap_counter());
+                              {&progress, &cloud}, &stop, heap_counter());
   prepare(&pipeline);
   const pipeline::Result& result = pipeline.run();
   progress.finish();
@@ -157,6 +175,8 @@ int replay(const Options& options, const std::atomic<bool>& stop) {
   const Scores scores = score(truth, data);
   const Run run = {options, result, data, truth, scores, source->format};
   write_files(run, &folder);
+  write_map(run, cloud, read_cloud_poses(pipeline.session()), &folder);
+  write_page(run, progress.messages(), &folder);
   print_result(run, folder);
   return conclude(run, folder, recorder_problem(options, predictor.get()));
 }

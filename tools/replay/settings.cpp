@@ -193,6 +193,7 @@ void load_settings(const std::string& path, Settings* settings) {
     }
     set_section(path, section, *value.as_table(), fields);
   }
+  if (file.at_path("session.window_overlap")) settings->window_overlap_given = true;
   if (file.at_path("session.max_keyframes")) settings->max_keyframes_given = true;
 }
 

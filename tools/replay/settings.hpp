@@ -16,7 +16,8 @@ struct Settings {
   unisim_config session;
   unisim_geometric_config geometric;
   pipeline::Options pipeline;
-  bool max_keyframes_given = false;  ///< else it follows from the length of the sequence
+  bool window_overlap_given = false;  ///< else it follows from the predictor
+  bool max_keyframes_given = false;   ///< else it follows from the length of the sequence
 };
 
 Settings default_settings();

@@ -47,23 +47,18 @@ Json protocol_json(const Run& run) {
 }
 
 Json memory_json(const Run& run) {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
   Json memory = {{"arena_bytes", run.data.session.arena_bytes},
                  {"arena_peak_bytes", run.data.session.arena_peak_bytes},
-                 {"process_peak_bytes", int64_t{usage.ru_maxrss} * 1024},
+                 {"process_peak_bytes", process_peak_bytes()},
                  {"predictor_bytes", run.result.predictor.state_bytes}};
   if (run.result.heap_calls >= 0) memory["heap_calls_after_init"] = run.result.heap_calls;
   return memory;
 }
 
 Json timing_json(const pipeline::StageTimes& times) {
-  return {
-      {"decode", stage_json(times.decode)},         {"observe", stage_json(times.observe)},
-      {"keyframe", stage_json(times.keyframe)},     {"two_view", stage_json(times.two_view)},
-      {"multi_view", stage_json(times.multi_view)}, {"depth_ratio", stage_json(times.depth_ratio)},
-      {"descriptor", stage_json(times.descriptor)}, {"graph", stage_json(times.graph)},
-      {"optimize", stage_json(times.optimize)},     {"track_total", stage_json(times.track_total)}};
+  Json json;
+  for (const auto& [name, stage] : stages(times)) json[name] = stage_json(*stage);
+  return json;
 }
 
 const char* outcome_name(pipeline::Outcome outcome) {
@@ -106,6 +101,26 @@ std::string score_line(const Run& run) {
 }
 
 }  // namespace
+
+std::string keyframe_choice(const Options& options) {
+  const int32_t stride = options.settings.pipeline.keyframes.stride;
+  return stride > 0 ? "every " + std::to_string(stride) : "by motion";
+}
+
+std::vector<std::pair<std::string, const pipeline::LatencyHistogram*>> stages(
+    const pipeline::StageTimes& times) {
+  return {{"decode", &times.decode},         {"observe", &times.observe},
+          {"keyframe", &times.keyframe},     {"two_view", &times.two_view},
+          {"multi_view", &times.multi_view}, {"depth_ratio", &times.depth_ratio},
+          {"descriptor", &times.descriptor}, {"graph", &times.graph},
+          {"optimize", &times.optimize},     {"track_total", &times.track_total}};
+}
+
+int64_t process_peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return int64_t{usage.ru_maxrss} * 1024;
+}
 
 double coverage(const RunData& data) {
   if (data.session.keyframes == 0) return 0.0;
@@ -151,12 +166,10 @@ std::string summary_json(const Run& run) {
 std::string summary_text(const Run& run, const std::vector<std::string>& files) {
   const unisim_session_info& info = run.data.session;
   const pipeline::Result& result = run.result;
-  const int32_t stride = run.options.settings.pipeline.keyframes.stride;
-  const std::string chosen = stride > 0 ? "every " + std::to_string(stride) : "by motion";
   std::string out = run.options.sequence + " (" + run.format +
                     "): " + std::to_string(result.progress.frames) + " frames, " +
-                    std::to_string(info.keyframes) + " keyframes (" + chosen + "), " +
-                    std::to_string(info.submaps) + " submaps, " +
+                    std::to_string(info.keyframes) + " keyframes (" + keyframe_choice(run.options) +
+                    "), " + std::to_string(info.submaps) + " submaps, " +
                     text("%.1f %% of the keyframes posed", 100.0 * coverage(run.data));
   if (info.segments > 1) out += ", " + std::to_string(info.segments) + " segments";
   out += "\n" + score_line(run);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "drivers/pipeline/pipeline.hpp"
@@ -24,6 +25,16 @@ struct Run {
 
 /// Keyframes with a pose over all keyframes; 0 without keyframes.
 double coverage(const RunData& data);
+
+/// "every 5" or "by motion".
+std::string keyframe_choice(const Options& options);
+
+/// The stages by the names of summary.json, in the order of the work.
+std::vector<std::pair<std::string, const pipeline::LatencyHistogram*>> stages(
+    const pipeline::StageTimes& times);
+
+/// Most memory the process has held.
+int64_t process_peak_bytes();
 
 /// summary.json; a figure that is not known is null.
 std::string summary_json(const Run& run);

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// What of a run goes on report.html.
+#include "tools/replay/page.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "tools/replay/report/local_scale.hpp"
+#include "tools/replay/version.hpp"
+
+namespace unisim::replay {
+namespace {
+
+using report::Point;
+using report::Sample;
+
+constexpr double kSecond_ns = 1e9;
+
+template <typename... Values>
+std::string text(const char* format, Values... values) {
+  char line[160];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
+
+Point point_at(double time_s, const Eigen::Vector3d& p, int segment = 0) {
+  return {time_s, p.x(), p.y(), p.z(), segment};
+}
+
+/// Into the frame of the ground truth where there is one.
+Point placed(int64_t time_ns, const unisim_sim3& T, const std::optional<eval::Ate>& ate,
+             int segment) {
+  const Eigen::Vector3d p(T.t[0], T.t[1], T.t[2]);
+  const double time_s = static_cast<double>(time_ns) / kSecond_ns;
+  return point_at(time_s, ate ? ate->T_truth_estimate * p : p, segment);
+}
+
+/// Ground truth of the time the run covers.
+std::vector<Point> truth_points(const Run& run) {
+  std::vector<Point> points;
+  if (!run.scores.ate || run.data.trajectory.empty()) return points;
+  const double first = static_cast<double>(run.data.trajectory.front().timestamp_ns) / kSecond_ns;
+  const double last = static_cast<double>(run.data.trajectory.back().timestamp_ns) / kSecond_ns;
+  for (const eval::Pose& pose : run.truth.poses) {
+    if (pose.time_s >= first && pose.time_s <= last)
+      points.push_back(point_at(pose.time_s, pose.t));
+  }
+  return points;
+}
+
+std::vector<Sample> errors(const std::optional<eval::Ate>& ate) {
+  std::vector<Sample> samples;
+  if (!ate) return samples;
+  for (size_t k = 0; k < ate->distance.size(); ++k) {
+    samples.push_back({ate->time_s[k], ate->distance[k], 0});
+  }
+  return samples;
+}
+
+std::vector<Sample> scales(const std::optional<eval::Ate>& ate) {
+  std::vector<Point> estimate;
+  std::vector<Point> truth;
+  if (!ate) return {};
+  for (size_t k = 0; k < ate->time_s.size(); ++k) {
+    estimate.push_back(point_at(ate->time_s[k], ate->aligned_position[k]));
+    truth.push_back(point_at(ate->time_s[k], ate->truth_position[k]));
+  }
+  return report::local_scale(estimate, truth);
+}
+
+void add_tracks(const Run& run, report::ReportData* page) {
+  for (const KeyframeRow& row : run.data.keyframes) {
+    if (row.pose.confidence == 0) continue;
+    page->estimate.push_back(
+        placed(row.pose.timestamp_ns, row.pose.T_world_kf, run.scores.ate, row.pose.segment));
+  }
+  for (const unisim_stamped_pose& live : run.data.live) {
+    page->live.push_back(placed(live.timestamp_ns, live.T_world_cam, run.scores.live, 0));
+  }
+  page->truth = truth_points(run);
+  page->length_unit = run.scores.ate ? "m" : "";
+  page->error = errors(run.scores.ate);
+  page->live_error = errors(run.scores.live);
+  page->scale = scales(run.scores.ate);
+}
+
+void add_figures(const Run& run, report::ReportData* page) {
+  const Scores& scores = run.scores;
+  const auto millimetres = [](double metres) { return text("%.1f mm", 1000.0 * metres); };
+  if (scores.ate) {
+    page->figures.push_back({"ATE, final poses", millimetres(scores.ate->error.rmse),
+                             text("RMSE of %zu keyframes", scores.ate->pairs.size())});
+  }
+  if (scores.live) {
+    page->figures.push_back(
+        {"ATE, live poses", millimetres(scores.live->error.rmse), "as first given out"});
+  }
+  const bool given = run.options.settings.geometric.focal_px > 0.0;
+  if (run.result.predictor.focal_px > 0.0) {
+    page->figures.push_back({"focal length", text("%.1f px", run.result.predictor.focal_px),
+                             given ? "given" : "estimated"});
+  }
+  page->figures.push_back({"keyframes posed", text("%.1f %%", 100.0 * coverage(run.data)),
+                           text("of %d", run.data.session.keyframes)});
+  page->figures.push_back({"speed",
+                           text("%.0f frames/s", static_cast<double>(run.result.progress.frames) /
+                                                     std::max(run.result.wall_s, 1e-9)),
+                           text("%.1f s in all", run.result.wall_s)});
+}
+
+void add_protocol(const Run& run, report::ReportData* page) {
+  const Options& o = run.options;
+  const unisim_session_info& info = run.data.session;
+  page->protocol = {
+      {"sequence", o.sequence + " (" + run.format + ")"},
+      {"frames", text("%lld tracked, %lld unreadable, %lld dropped",
+                      static_cast<long long>(run.result.progress.frames),
+                      static_cast<long long>(run.result.progress.frames_bad),
+                      static_cast<long long>(run.result.progress.frames_dropped))},
+      {"keyframes", text("%d, ", info.keyframes) + keyframe_choice(o)},
+      {"submaps", text("%d of %d keyframes, overlap %d", info.submaps,
+                       o.settings.session.window_size, o.settings.session.window_overlap)},
+      {"segments", std::to_string(info.segments)},
+      {"predictor", o.predictor},
+      {"loop closing", "not built"},
+      {"intrinsics", o.settings.geometric.focal_px > 0.0 ? "given" : "estimated"},
+      {"ground truth", run.truth.name.empty() ? "none" : run.truth.name},
+      {"alignment", "Sim(3), final and live poses each by themselves"}};
+}
+
+void add_tables(const Run& run, report::ReportData* page) {
+  for (const auto& [name, times] : stages(run.result.times)) {
+    if (times->count() == 0) continue;
+    page->timing.push_back({name, times->count(), times->percentile_ms(0.5),
+                            times->percentile_ms(0.95), times->max_ms()});
+  }
+  const auto mebibytes = [](double bytes) { return text("%.1f MiB", bytes / (1 << 20)); };
+  page->memory = {{"session", mebibytes(static_cast<double>(run.data.session.arena_bytes))},
+                  {"predictor", mebibytes(static_cast<double>(run.result.predictor.state_bytes))},
+                  {"process, at most", mebibytes(static_cast<double>(process_peak_bytes()))}};
+  if (run.result.heap_calls >= 0) {
+    page->memory.push_back({"heap calls of the library", std::to_string(run.result.heap_calls)});
+  }
+}
+
+}  // namespace
+
+report::ReportData page_data(const Run& run, const std::vector<std::string>& messages) {
+  report::ReportData page;
+  page.title = run.options.sequence;
+  page.subtitle = run.options.predictor + " predictor, keyframes " + keyframe_choice(run.options);
+  page.footer = "unisim-replay " + version_text();
+  add_tracks(run, &page);
+  add_figures(run, &page);
+  add_protocol(run, &page);
+  add_tables(run, &page);
+  page.warnings = messages;
+  if (!run.result.message.empty()) page.warnings.push_back(run.result.message);
+  if (!run.scores.problem.empty()) page.warnings.push_back(run.scores.problem);
+  return page;
+}
+
+}  // namespace unisim::replay
