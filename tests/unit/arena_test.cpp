@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Arena: counting and carving by the same code.
+#include "core/base/arena.hpp"
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "tests/support/catch.hpp"
+
+using unisim::Arena;
+using unisim::Span;
+
+namespace {
+
+struct Layout {
+  explicit Layout(Arena& arena) {
+    arena.begin_part("bytes");
+    bytes = arena.take<unsigned char>(3);
+    arena.begin_part("numbers");
+    numbers = arena.take<double>(9);
+    arena.begin_part("bytes");
+    more = arena.take<unsigned char>(65);
+  }
+  Span<unsigned char> bytes;
+  Span<double> numbers;
+  Span<unsigned char> more;
+};
+
+}  // namespace
+
+TEST_CASE("a dry arena counts padded bytes and hands out no memory") {
+  Arena dry;
+  const Layout layout(dry);
+  CHECK(dry.used_bytes() == 64 + 128 + 128);
+  CHECK(dry.required_bytes() == 320 + 63);
+  CHECK(layout.numbers.data() == nullptr);
+  CHECK(layout.numbers.size() == 9);
+  CHECK(dry.ok());
+}
+
+TEST_CASE("an empty layout needs nothing") { CHECK(Arena().required_bytes() == 0); }
+
+TEST_CASE("bytes are listed by part, a repeated name goes on counting") {
+  Arena dry;
+  const Layout layout(dry);
+  REQUIRE(dry.parts().size() == 2);
+  CHECK(std::strcmp(dry.parts()[0].name, "bytes") == 0);
+  CHECK(dry.parts()[0].bytes == 64 + 128);
+  CHECK(std::strcmp(dry.parts()[1].name, "numbers") == 0);
+  CHECK(dry.parts()[1].bytes == 128);
+}
+
+TEST_CASE("the counted bytes suffice at every alignment of the memory") {
+  Arena dry;
+  const Layout counted(dry);
+  std::vector<unsigned char> memory(dry.required_bytes() + 64);
+  for (size_t shift = 0; shift < 64; ++shift) {
+    Arena arena(memory.data() + shift, dry.required_bytes());
+    const Layout layout(arena);
+    REQUIRE(arena.ok());
+    CHECK(reinterpret_cast<uintptr_t>(layout.bytes.data()) % 64 == 0);
+    CHECK(reinterpret_cast<uintptr_t>(layout.numbers.data()) % 64 == 0);
+    CHECK(layout.more.end() <= memory.data() + shift + dry.required_bytes());
+  }
+}
+
+TEST_CASE("one byte short of the padded layout is out of memory") {
+  Arena dry;
+  const Layout counted(dry);
+  std::vector<unsigned char> memory(dry.required_bytes() + 64);
+  const size_t misaligned = reinterpret_cast<uintptr_t>(memory.data()) % 64;
+  unsigned char* aligned = memory.data() + (64 - misaligned) % 64;
+  Arena enough(aligned, dry.used_bytes());
+  const Layout fits(enough);
+  CHECK(enough.ok());
+  Arena tight(aligned, dry.used_bytes() - 1);
+  const Layout too_large(tight);
+  CHECK_FALSE(tight.ok());
+  CHECK(too_large.more.data() == nullptr);
+}
+
+TEST_CASE("elements start at their default value whatever the memory held") {
+  std::vector<unsigned char> memory(1024, 0xff);
+  Arena arena(memory.data(), memory.size());
+  for (const double value : arena.take<double>(16)) CHECK(value == 0.0);
+}
+
+TEST_CASE("no memory at all is not ok") {
+  Arena arena(nullptr, 100);
+  CHECK_FALSE(arena.ok());
+}

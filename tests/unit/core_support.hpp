@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// What the tests of core share: objects carved from an arena, random values, comparison.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "core/base/arena.hpp"
+#include "core/graph/graph.hpp"
+#include "core/lie/sim3.hpp"
+#include "core/solve/lm.hpp"
+
+namespace unisim_test {
+
+/// Object whose constructor is T(Arena&, capacity), with memory of exactly the size the dry run
+/// says.
+template <class T, class Capacity>
+class Carved {
+ public:
+  explicit Carved(const Capacity& capacity) {
+    unisim::Arena dry;
+    T counted(dry, capacity);
+    memory_.resize(dry.required_bytes());
+    unisim::Arena arena(memory_.data(), memory_.size());
+    object_ = T(arena, capacity);
+    fits_ = arena.ok();
+  }
+  Carved(const Carved&) = delete;
+  Carved& operator=(const Carved&) = delete;
+
+  T& operator*() { return object_; }
+  T* operator->() { return &object_; }
+  bool fits() const { return fits_; }
+
+ private:
+  std::vector<unsigned char> memory_;
+  T object_;
+  bool fits_ = false;
+};
+using CarvedGraph = Carved<unisim::Graph, unisim::GraphCapacity>;
+using CarvedLm = Carved<unisim::LevenbergMarquardt, unisim::SolverCapacity>;
+
+/// Same numbers on every platform, unlike the standard distributions.
+class Random {
+ public:
+  explicit Random(uint32_t seed) : engine_(seed) {}
+  double uniform(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_()) + 0.5) / 4294967296.0;
+  }
+  int32_t below(int32_t end) {
+    return static_cast<int32_t>(engine_() % static_cast<uint32_t>(end));
+  }
+  unisim::Vec3 vector(double size) {
+    return {uniform(-size, size), uniform(-size, size), uniform(-size, size)};
+  }
+  unisim::Vec3 direction() {
+    for (;;) {
+      const unisim::Vec3 v = vector(1.0);
+      if (v.norm() > 0.1 && v.norm() < 1.0) return v.normalized();
+    }
+  }
+  /// Tangent with the given rotation angle [rad] and log-scale.
+  unisim::Vec7 tangent(double length, double angle, double log_scale) {
+    unisim::Vec7 xi;
+    xi << vector(length), angle * direction(), log_scale;
+    return xi;
+  }
+  unisim::Sim3 pose(double length, double angle, double log_scale) {
+    return unisim::sim3_exp(tangent(length, uniform(0.0, angle), uniform(-log_scale, log_scale)));
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// Largest difference of entries.
+template <class A, class B>
+double difference(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
+  return (a - b).cwiseAbs().maxCoeff();
+}
+
+/// Largest difference of the 4x4 matrices [sR t; 0 1].
+inline double difference(const unisim::Sim3& a, const unisim::Sim3& b) {
+  const unisim::Mat3 sR_a = a.s * a.q.toRotationMatrix();
+  const unisim::Mat3 sR_b = b.s * b.q.toRotationMatrix();
+  return std::max(difference(sR_a, sR_b), difference(a.t, b.t));
+}
+
+/// Jacobian of f at T for right perturbations, by five-point central differences.
+template <class Function>
+Eigen::MatrixXd numeric_jacobian(const unisim::Sim3& T, Function f) {
+  constexpr double kStep = 1e-3;
+  const Eigen::VectorXd at = f(T);
+  Eigen::MatrixXd J(at.size(), 7);
+  for (int k = 0; k < 7; ++k) {
+    const auto moved = [&](double step) -> Eigen::VectorXd {
+      unisim::Vec7 dx = unisim::Vec7::Zero();
+      dx(k) = step;
+      return f(unisim::retract(T, dx));
+    };
+    J.col(k) = (8.0 * (moved(kStep) - moved(-kStep)) - (moved(2 * kStep) - moved(-2 * kStep))) /
+               (12.0 * kStep);
+  }
+  return J;
+}
+
+/// Rotation by an angle [rad] about z, then translation; scale s.
+inline unisim::Sim3 about_z(double angle, double x, double y, double z, double s) {
+  unisim::Sim3 T;
+  T.q = unisim::Quat(std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle));
+  T.t << x, y, z;
+  T.s = s;
+  return T;
+}
+
+}  // namespace unisim_test

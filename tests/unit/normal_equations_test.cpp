@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Normal equations against the products of the factors' Jacobians.
+#include "core/solve/normal_equations.hpp"
+
+#include "core/graph/bridge.hpp"
+#include "core/graph/tie.hpp"
+#include "core/graph/two_view.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/unit/core_support.hpp"
+
+using namespace unisim;
+using unisim_test::CarvedGraph;
+using unisim_test::difference;
+using CarvedPattern = unisim_test::Carved<BlockPattern, SolverCapacity>;
+using CarvedEquations = unisim_test::Carved<NormalEquations, SolverCapacity>;
+using Dense = Eigen::Matrix<double, 7, 7>;
+
+namespace {
+
+// Two nodes and one edge; H and g as the solver has them, in the order of nodes a, b.
+struct Pair {
+  Pair() : graph({2, 1, 2}), pattern({2, 1, 1, 3}), equations({2, 1, 1, 3}) {
+    unisim_test::Random random(11);
+    A = random.pose(2.0, 2.0, 0.5);
+    B = random.pose(2.0, 2.0, 0.5);
+    P = random.pose(1.0, 1.0, 0.3);
+    Q = random.pose(1.0, 1.0, 0.3);
+    weight.information = 3.0;
+    weight.multiplier = 0.5;
+    weight.kernel = {RobustKernelKind::kHuber, 0.7};
+    int32_t id = -1;
+    REQUIRE(graph->add_node(NodeKind::kSubmap, A, &id) == Status::kOk);
+    REQUIRE(graph->add_node(NodeKind::kSubmap, B, &id) == Status::kOk);
+  }
+
+  double linearize() {
+    REQUIRE(pattern->build(*graph) == Status::kOk);
+    return equations->linearize(*graph, *pattern);
+  }
+  Dense diagonal(int32_t node) {
+    const Dense lower = as_matrix(equations->H(*pattern).diagonal[pattern->column_of_node(node)])
+                            .triangularView<Eigen::Lower>();
+    Dense full = lower + lower.transpose();
+    full.diagonal() = lower.diagonal();
+    return full;
+  }
+  // Rows of node 1, columns of node 0.
+  Dense off_diagonal() {
+    const Dense block = as_matrix(equations->H(*pattern).off_diagonal[0]);
+    return pattern->column_of_node(1) > pattern->column_of_node(0) ? block
+                                                                   : Dense(block.transpose());
+  }
+  Vec7 gradient(int32_t node) {
+    return Eigen::Map<const Vec7>(equations->gradient()[pattern->column_of_node(node)].v);
+  }
+  void check_against(const RelativePoseJacobians& J) {
+    const double u2 = 1.5 * J.e.squaredNorm();
+    const RobustCost robust = robust_cost(weight.kernel, u2);
+    const double w = 1.5 * robust.weight;
+    CHECK(linearize() == Approx(robust.cost));
+    CHECK(robust.weight < 1.0);
+    CHECK(difference(diagonal(0), w * J.J_e_A.transpose() * J.J_e_A) < 1e-12);
+    CHECK(difference(diagonal(1), w * J.J_e_B.transpose() * J.J_e_B) < 1e-12);
+    CHECK(difference(off_diagonal(), w * J.J_e_B.transpose() * J.J_e_A) < 1e-12);
+    CHECK(difference(gradient(0), w * J.J_e_A.transpose() * J.e) < 1e-12);
+    CHECK(difference(gradient(1), w * J.J_e_B.transpose() * J.e) < 1e-12);
+  }
+
+  CarvedGraph graph;
+  CarvedPattern pattern;
+  CarvedEquations equations;
+  Sim3 A, B, P, Q;
+  EdgeWeight weight;
+};
+
+}  // namespace
+
+TEST_CASE("a two-view edge adds w J'J and w J'e") {
+  Pair pair;
+  int32_t id = -1;
+  REQUIRE(pair.graph->add_two_view(0, 1, pair.P, pair.weight, &id) == Status::kOk);
+  pair.check_against(two_view_jacobians(pair.A, pair.B, pair.P));
+}
+
+TEST_CASE("a bridge edge adds w J'J and w J'e") {
+  Pair pair;
+  int32_t id = -1;
+  REQUIRE(pair.graph->add_bridge(0, 1, pair.P, pair.weight, &id) == Status::kOk);
+  pair.check_against(bridge_jacobians(pair.A, pair.B, pair.P));
+}
+
+TEST_CASE("a tie edge adds w J'J and w J'e") {
+  Pair pair;
+  int32_t id = -1;
+  REQUIRE(pair.graph->add_tie(0, 1, pair.P, pair.Q, pair.weight, &id) == Status::kOk);
+  pair.check_against(tie_jacobians(pair.A, pair.B, pair.P, pair.Q));
+}
+
+TEST_CASE("scale edges touch the log-scales only") {
+  for (const bool anchor : {true, false}) {
+    Pair pair;
+    int32_t id = -1;
+    const Status status = anchor ? pair.graph->add_scale_anchor(0, 1, 0.1, {}, &id)
+                                 : pair.graph->add_scale(0, 1, 0.1, {}, &id);
+    REQUIRE(status == Status::kOk);
+    const double e = std::log(pair.B.s / pair.A.s) - 0.1;
+    CHECK(pair.linearize() == Approx(0.5 * e * e));
+    Dense expected = Dense::Zero();
+    expected(6, 6) = 1.0;
+    CHECK(difference(pair.diagonal(0), expected) == 0.0);
+    CHECK(difference(pair.off_diagonal(), -expected) == 0.0);
+    CHECK(pair.gradient(1)(6) == Approx(e));
+    CHECK(pair.gradient(0)(6) == Approx(-e));
+  }
+}
+
+TEST_CASE("suspended edges and fixed ends add nothing of their own") {
+  Pair pair;
+  int32_t id = -1;
+  REQUIRE(pair.graph->add_two_view(0, 1, pair.P, pair.weight, &id) == Status::kOk);
+  REQUIRE(pair.graph->set_fixed(0, true) == Status::kOk);
+  const RelativePoseJacobians J = two_view_jacobians(pair.A, pair.B, pair.P);
+  const RobustCost robust = robust_cost(pair.weight.kernel, 1.5 * J.e.squaredNorm());
+  CHECK(pair.linearize() == Approx(robust.cost));
+  const double w = 1.5 * robust.weight;
+  CHECK(difference(pair.diagonal(1), w * J.J_e_B.transpose() * J.J_e_B) < 1e-12);
+  REQUIRE(pair.graph->set_suspended(id, true) == Status::kOk);
+  CHECK(pair.linearize() == 0.0);
+  CHECK(pair.diagonal(1).norm() == 0.0);
+}
