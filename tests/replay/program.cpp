@@ -98,19 +98,9 @@ ProgramResult run_replay(const std::vector<std::string>& arguments,
   return run(UNISIM_REPLAY_PROGRAM, arguments, disturbance);
 }
 
-int render(const std::string& path, const std::string& size) {
-  return run(UNISIM_SYNTH_PROGRAM, {path, "--frames", "80", "--size", size}, {}).code;
-}
+std::string rendered_sequence() { return UNISIM_RENDERED "/320x240"; }
 
-const std::string& rendered_sequence() {
-  static const TempFolder folder;
-  static const std::string path = [] {
-    std::string sequence = folder / "sequence";
-    if (render(sequence, "320x240") != 0) throw std::runtime_error("unisim-synth failed");
-    return sequence;
-  }();
-  return path;
-}
+std::string small_sequence() { return UNISIM_RENDERED "/160x120"; }
 
 std::string read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

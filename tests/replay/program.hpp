@@ -38,11 +38,11 @@ struct Disturbance {
 ProgramResult run_replay(const std::vector<std::string>& arguments,
                          const Disturbance& disturbance = {});
 
-/// A rendered sequence of 320x240 with ground truth; made once per process.
-const std::string& rendered_sequence();
+/// A rendered sequence of 80 frames, 320x240, with ground truth; made by the build, read only.
+std::string rendered_sequence();
 
-/// unisim-synth into `path`. @return its exit code
-int render(const std::string& path, const std::string& size);
+/// The same in 160x120.
+std::string small_sequence();
 
 std::string read_file(const std::string& path);
 void write_file(const std::string& path, const std::string& text);

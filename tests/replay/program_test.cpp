@@ -230,9 +230,7 @@ TEST_CASE("damaged frames are told and survived") {
     told = "30";
   }
   SECTION("image of another size") {
-    const TempFolder other;
-    REQUIRE(render(other / "small", "160x120") == 0);
-    const fs::path small = fs::path(other / "small") / "rgb";
+    const fs::path small = fs::path(small_sequence()) / "rgb";
     fs::copy_file(fs::directory_iterator(small)->path(), sequence.image(30),
                   fs::copy_options::overwrite_existing);
     told = "160x120";
@@ -267,7 +265,7 @@ TEST_CASE("ground truth of another time base costs the score, not the results") 
   INFO(result.err);
   CHECK(result.code == 3);
   CHECK(lines_in(result.err) == 1);
-  CHECK(has(result.err, "truth.txt"));
+  CHECK(has(result.err, "truth.txt has times 90000.000 to 90002.000 s, the sequence 1000.000"));
   CHECK(poses_in(out + "/trajectory.tum") == 20);
   CHECK(nlohmann::json::parse(read_file(out + "/summary.json")).at("ate_rmse_m").is_null());
 }

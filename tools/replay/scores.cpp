@@ -2,6 +2,7 @@
 // How far a run is from ground truth.
 #include "tools/replay/scores.hpp"
 
+#include <cstdio>
 #include <vector>
 
 #include "tools/replay/failure.hpp"
@@ -13,6 +14,20 @@ constexpr double kMaxTimeDifference_s = 0.02;
 
 eval::Trajectory estimate(const std::string& name, const std::vector<unisim_stamped_pose>& poses) {
   return eval::make_trajectory(name, poses.data(), static_cast<int64_t>(poses.size()));
+}
+
+/// Empty, or why no pose of the run has a partner in time.
+std::string clock_problem(const eval::Trajectory& truth, const eval::Trajectory& run) {
+  const double first = truth.poses.front().time_s, last = truth.poses.back().time_s;
+  const double from = run.poses.front().time_s, to = run.poses.back().time_s;
+  if (from <= last + kMaxTimeDifference_s && to >= first - kMaxTimeDifference_s) return {};
+  char line[160];
+  std::snprintf(
+      line, sizeof line,
+      " has times %.3f to %.3f s, the sequence %.3f to %.3f s: no score; give ground truth "
+      "of the same clock",
+      first, last, from, to);
+  return truth.name + line;
 }
 
 }  // namespace
@@ -34,8 +49,10 @@ eval::Trajectory load_ground_truth(const std::string& path, unisim_source* sourc
 Scores score(const eval::Trajectory& truth, const RunData& data) {
   Scores scores;
   if (truth.poses.empty()) return scores;
+  const eval::Trajectory final_poses = estimate("trajectory.tum", data.trajectory);
+  scores.problem = clock_problem(truth, final_poses);
+  if (!scores.problem.empty()) return scores;
   try {
-    const eval::Trajectory final_poses = estimate("trajectory.tum", data.trajectory);
     scores.ate = eval::absolute_trajectory_error(truth, final_poses, eval::Alignment::kSim3,
                                                  kMaxTimeDifference_s);
     scores.rpe = eval::relative_pose_error(truth, final_poses, eval::Alignment::kSim3,
