@@ -14,7 +14,7 @@ namespace unisim::geometric {
 /// stored to, cleared and multiplied. Rows past 6 * slots are identity.
 ///
 /// Use: begin(), mark() every block that may be nonzero, analyze(); then as often as wanted:
-/// clear(), block(), factorize(), solve(). Nothing allocates after construction.
+/// clear(), block(), factorize(), forward(), backward(). Nothing allocates after construction.
 class TileCholesky {
  public:
   static constexpr int kBlock = 6;
