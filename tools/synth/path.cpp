@@ -62,9 +62,9 @@ CameraPath::CameraPath(const PathOptions& options)
                      Sway(stands_still(options.scene) ? 0 : 0.035, derive_seed(options.seed, 502)),
                      Sway(stands_still(options.scene) ? 0 : 0.03, derive_seed(options.seed, 503))},
       rotation_sway_{
-          Sway(options.scene == SceneKind::kStatic ? 0 : 0.04, derive_seed(options.seed, 504)),
-          Sway(options.scene == SceneKind::kStatic ? 0 : 0.04, derive_seed(options.seed, 505)),
-          Sway(options.scene == SceneKind::kStatic ? 0 : 0.03, derive_seed(options.seed, 506))} {}
+          Sway(options.scene == SceneKind::kStatic ? 0 : 0.028, derive_seed(options.seed, 504)),
+          Sway(options.scene == SceneKind::kStatic ? 0 : 0.028, derive_seed(options.seed, 505)),
+          Sway(options.scene == SceneKind::kStatic ? 0 : 0.022, derive_seed(options.seed, 506))} {}
 
 double CameraPath::progress(double time_s) const {
   // Starts at a third of the mean speed and gains the rest within the first tenth.

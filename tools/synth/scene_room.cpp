@@ -127,32 +127,49 @@ Scene make_room(uint64_t seed) {
   return scene;
 }
 
+namespace {
+
+Painter white_paint(uint64_t seed) {
+  return [=](Canvas* canvas) { paint_plaster(canvas, Color(190, 188, 184), 9, seed); };
+}
+
+/// White, with a skirting board, a switch, a few small pictures and marks.
+Painter bare_wall(uint64_t seed) {
+  return [=](Canvas* canvas) {
+    Random random(seed);
+    const Rect area = canvas->area();
+    white_paint(random.next())(canvas);
+    canvas->paint_rect({0, area.height - 0.08, area.width, 0.08}, Color(150, 148, 144));
+    canvas->paint_rect({random.uniform(0.2, area.width - 0.3), area.height - 1.2, 0.08, 0.08},
+                       Color(228, 228, 226));
+    for (int i = 0; i < 3; ++i) {
+      paint_poster(
+          canvas,
+          {area.width * (i + random.uniform(0.15, 0.7)) / 3, random.uniform(0.8, 1.4), 0.3, 0.22},
+          random.next());
+    }
+    for (int i = 0; i < 12; ++i) {
+      const double size = random.uniform(0.01, 0.03);
+      canvas->paint_rect({random.uniform(0, area.width), random.uniform(0.4, area.height), size,
+                          size * random.uniform(0.5, 2)},
+                         Color(140, 138, 134));
+    }
+  };
+}
+
+}  // namespace
+
 Scene make_low_texture_room(uint64_t seed) {
   Random random(derive_seed(seed, 200));
   Scene scene(kTexel);
   add_lights(&scene);
   std::vector<Painter> walls;
   for (int i = 0; i < 6; ++i) {
-    const uint64_t wall_seed = random.next();
-    const bool upright = i < 4;
-    walls.emplace_back([=](Canvas* canvas) {
-      Random part(wall_seed);
-      paint_plaster(canvas, Color(196, 194, 190), 2.5f, part.next());
-      if (upright) {
-        paint_poster(
-            canvas,
-            {part.uniform(0.8, canvas->area().width - 1.2), part.uniform(0.6, 1.1), 0.4, 0.3},
-            part.next());
-        canvas->paint_rect({part.uniform(0.2, 3.0), 2.35, 0.08, 0.08}, Color(225, 225, 222));
-        canvas->paint_rect({0, canvas->area().height - 0.08, canvas->area().width, 0.08},
-                           Color(150, 148, 144));
-      }
-    });
+    walls.push_back(i < 4 ? bare_wall(random.next()) : white_paint(random.next()));
   }
   scene.add_shell(kRoomSize, walls);
-  const auto white = [](Canvas* canvas, int) {
-    paint_plaster(canvas, Color(180, 180, 176), 2.5f, 5);
-  };
+  const Painter paint = white_paint(random.next());
+  const auto white = [&paint](Canvas* canvas, int) { paint(canvas); };
   scene.add_box({0.1, 0, 0}, {1.0, 0.7, 0.7}, 0.15, white);
   scene.add_box({-1.2, 1.75, 0}, {1.2, 0.4, 1.6}, 0, white);
   scene.add_box({2.15, -0.6, 0}, {0.5, 0.5, 0.5}, 0.3, cardboard(random.next()));

@@ -80,11 +80,16 @@ void SequenceWriter::write_camera(const std::string& text) const {
 }
 
 void SequenceWriter::write_frame(double time_s, const cv::Mat& image, const cv::Mat& depth) const {
-  const std::vector<int> png = {cv::IMWRITE_PNG_COMPRESSION, 1};
+  // Fastest settings, which for textured images also give the smallest files.
+  const std::vector<int> png = {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY,
+                                cv::IMWRITE_PNG_STRATEGY_RLE};
+  const std::vector<int> depth_png = {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY,
+                                      cv::IMWRITE_PNG_STRATEGY_DEFAULT};
   const std::vector<int> jpeg = {cv::IMWRITE_JPEG_QUALITY, 95};
   const std::string image_path = (fs::path(folder_) / image_name(time_s)).string();
   const std::string depth_path = (fs::path(folder_) / depth_name(time_s)).string();
-  if (!cv::imwrite(image_path, image, jpeg_ ? jpeg : png) || !cv::imwrite(depth_path, depth, png)) {
+  if (!cv::imwrite(image_path, image, jpeg_ ? jpeg : png) ||
+      !cv::imwrite(depth_path, depth, depth_png)) {
     throw SynthError(kDeviceFailed,
                      "cannot write " + image_path + " or its depth; is the disk full?");
   }
