@@ -155,6 +155,13 @@ void RandomCaller::read() {
   note(unisim_get_covariance(session_, below(keyframes_ + 2) - 1, covariance));
 }
 
+void RandomCaller::optimize() {
+  unisim_budget budget = {sizeof budget, 1 + below(3)};
+  const unisim_status status = unisim_optimize(session_, &budget, nullptr);
+  note(status);
+  if (status == UNISIM_ERR_CAPACITY) ++solver_overflows_;
+}
+
 void RandomCaller::answer_request() {
   unisim_request request = {};
   request.struct_size = sizeof request;
@@ -185,8 +192,7 @@ bool RandomCaller::step() {
   } else if (dice < 95) {
     read();
   } else if (dice < 99) {
-    unisim_budget budget = {sizeof budget, 1 + below(3)};
-    note(unisim_optimize(session_, &budget, nullptr));
+    optimize();
   } else {
     note(unisim_close_window(session_));
   }

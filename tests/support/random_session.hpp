@@ -25,6 +25,8 @@ class RandomCaller {
 
   /// One call. false: the keyframe capacity is reached.
   bool step();
+  /// Optimisations that found the solver's declared memory too small.
+  int64_t solver_overflows() const { return solver_overflows_; }
   /// Calls answered with this status.
   int64_t count(unisim_status status) const { return counts_[static_cast<size_t>(status)]; }
 
@@ -37,6 +39,7 @@ class RandomCaller {
   void add_loop();
   void update();
   void read();
+  void optimize();
   void fill_depth();
   unisim_sim3 pose(double length);
   unisim_submap submap(int32_t count);
@@ -54,6 +57,7 @@ class RandomCaller {
   std::uniform_real_distribution<double> uniform_{0.0, 1.0};
   int32_t keyframes_ = 0;
   int32_t submaps_ = 0;
+  int64_t solver_overflows_ = 0;
   std::vector<float> depth_;
   std::vector<unisim_depth_map> maps_;
   std::vector<unisim_sim3> poses_;
