@@ -17,6 +17,12 @@ bool valid_options(const LmOptions& o) {
          o.cost_tolerance >= 0.0 && o.step_tolerance >= 0.0 && o.max_log_scale_step > 0.0;
 }
 
+void tell(const LmObserver& observer, LmPhase phase, const LmReport& report) {
+  if (observer.enter != nullptr) {
+    observer.enter(phase, report.iterations, report.final_cost, observer.user);
+  }
+}
+
 // Nielsen's rule: damping falls smoothly with the gain ratio rho, grows ever faster on failures.
 struct Damping {
   double lambda;
@@ -43,12 +49,14 @@ LevenbergMarquardt::LevenbergMarquardt(Arena& arena, const SolverCapacity& capac
       step_(arena.take<BlockVector>(capacity.nodes)),
       saved_(arena.take<Sim3>(capacity.nodes)) {}
 
-Status LevenbergMarquardt::prepare(const Graph& graph) {
+Status LevenbergMarquardt::prepare(const Graph& graph, const LmObserver& observer) {
   if (graph.structure_revision() == structure_revision_) return Status::kOk;
   structure_revision_ = 0;
   undamped_revision_ = 0;
+  tell(observer, LmPhase::kOrder, LmReport());
   Status status = pattern_.build(graph);
   if (!is_ok(status)) return status;
+  tell(observer, LmPhase::kAnalyze, LmReport());
   status = cholesky_.analyze(pattern_.column_start(), pattern_.rows());
   if (is_ok(status)) structure_revision_ = graph.structure_revision();
   return status;
@@ -58,17 +66,20 @@ Status LevenbergMarquardt::optimize(Graph* graph, const LmOptions& options, LmRe
   *report = LmReport();
   if (!valid_options(options)) return Status::kInvalidArgument;
   if (graph->edge_count() == 0) return Status::kNotReady;
-  const Status status = prepare(*graph);
+  const Status status = prepare(*graph, options.observer);
   report->factor_blocks = cholesky_.needed_blocks();
   if (!is_ok(status)) return status;
   undamped_revision_ = 0;
+  tell(options.observer, LmPhase::kLinearize, *report);
   report->initial_cost = equations_.linearize(*graph, pattern_);
   report->final_cost = report->initial_cost;
   if (!std::isfinite(report->initial_cost)) {
     report->stop = LmStop::kNoDescent;
     return Status::kNumerical;
   }
+  tell(options.observer, LmPhase::kAccept, *report);
   report->stop = iterate(graph, options, report);
+  tell(options.observer, LmPhase::kEnd, *report);
   const bool good = report->stop == LmStop::kConverged || report->stop == LmStop::kBudget;
   return good ? Status::kOk : Status::kNumerical;
 }
@@ -81,7 +92,7 @@ LmStop LevenbergMarquardt::iterate(Graph* graph, const LmOptions& options, LmRep
   for (; report->iterations < options.max_iterations; ++report->iterations) {
     report->lambda = damping.lambda;
     if (damping.exhausted()) return factored ? LmStop::kNoDescent : LmStop::kNotPositive;
-    factored = find_step(options, damping.lambda);
+    factored = find_step(options, *report);
     if (!factored) {
       report->bad_node = pattern_.node_of_column(std::max(cholesky_.bad_column(), 0));
       damping.reject();
@@ -90,37 +101,44 @@ LmStop LevenbergMarquardt::iterate(Graph* graph, const LmOptions& options, LmRep
     const double cost = report->final_cost;
     const double predicted = predicted_decrease(damping.lambda);
     const bool moved = apply_step(graph);
+    tell(options.observer, LmPhase::kLinearize, *report);
     const double trial = moved ? equations_.linearize(*graph, pattern_) : cost;
     if (moved && std::isfinite(trial) && trial <= cost) {
       damping.accept(predicted > 0.0 ? (cost - trial) / predicted : 1.0);
       report->final_cost = trial;
       ++report->accepted;
+      tell(options.observer, LmPhase::kAccept, *report);
       if (cost - trial <= options.cost_tolerance * cost || step_size_ <= options.step_tolerance) {
         ++report->iterations;
         return LmStop::kConverged;
       }
       continue;
     }
+    tell(options.observer, LmPhase::kStep, *report);
     restore_poses(graph);
     // Steps this small fail by roundoff only: the cost has no lower digits left.
     if (step_size_ <= options.step_tolerance) {
       ++report->iterations;
       return LmStop::kConverged;
     }
+    tell(options.observer, LmPhase::kLinearize, *report);
     equations_.linearize(*graph, pattern_);
     damping.reject();
   }
   return factored ? LmStop::kBudget : LmStop::kNotPositive;
 }
 
-bool LevenbergMarquardt::find_step(const LmOptions& options, double lambda) {
-  if (!is_ok(cholesky_.factorize(equations_.H(pattern_), lambda))) return false;
+bool LevenbergMarquardt::find_step(const LmOptions& options, const LmReport& report) {
+  tell(options.observer, LmPhase::kFactorize, report);
+  if (!is_ok(cholesky_.factorize(equations_.H(pattern_), report.lambda))) return false;
+  tell(options.observer, LmPhase::kSolve, report);
   const Span<BlockVector> step = step_.subspan(0, pattern_.columns());
   const Span<const BlockVector> g = equations_.gradient();
   for (int32_t j = 0; j < step.size(); ++j) {
     for (int d = 0; d < kBlockRows; ++d) step[j].v[d] = -g[j].v[d];
   }
   cholesky_.solve(step);
+  tell(options.observer, LmPhase::kStep, report);
   double largest = 0.0;
   double log_scale = 0.0;
   bool finite = true;
@@ -179,7 +197,7 @@ void LevenbergMarquardt::restore_poses(Graph* graph) const {
 
 Status LevenbergMarquardt::marginal_covariance(const Graph& graph, int32_t node, Mat7* covariance) {
   if (!graph.has_node(node) || graph.node(node).fixed) return Status::kInvalidArgument;
-  Status status = prepare(graph);
+  Status status = prepare(graph, LmObserver());
   if (!is_ok(status)) return status;
   if (undamped_revision_ != graph.revision()) {
     undamped_revision_ = 0;

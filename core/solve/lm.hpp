@@ -9,6 +9,7 @@
 #include "core/graph/graph.hpp"
 #include "core/solve/block_cholesky.hpp"
 #include "core/solve/block_pattern.hpp"
+#include "core/solve/lm_observer.hpp"
 #include "core/solve/normal_equations.hpp"
 
 namespace unisim {
@@ -19,7 +20,8 @@ struct LmOptions {
   double cost_tolerance = 1e-7;  ///< stop at this relative change of the cost
   double step_tolerance = 1e-7;  ///< stop when no component of the step is larger
   double max_log_scale_step =
-      1.0;  ///< a step with a larger log-scale component is shortened as a whole
+      1.0;              ///< a step with a larger log-scale component is shortened as a whole
+  LmObserver observer;  ///< called on the caller's thread; may not touch the solver or the graph
 };
 
 /// Why an optimisation ended; numbers of UNISIM_STOP_*.
@@ -65,9 +67,9 @@ class LevenbergMarquardt {
   const BlockPattern& pattern() const { return pattern_; }
 
  private:
-  Status prepare(const Graph& graph);
+  Status prepare(const Graph& graph, const LmObserver& observer);
   LmStop iterate(Graph* graph, const LmOptions& options, LmReport* report);
-  bool find_step(const LmOptions& options, double lambda);
+  bool find_step(const LmOptions& options, const LmReport& report);
   double predicted_decrease(double lambda) const;
   bool apply_step(Graph* graph);
   void restore_poses(Graph* graph) const;
