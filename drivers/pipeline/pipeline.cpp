@@ -115,7 +115,7 @@ const Result& Pipeline::Impl::run() {
 }
 
 void Pipeline::Impl::read_all() {
-  const bool decode = predictor_->needs_images != 0;
+  const bool decode = predictor_->needs_images != 0 || options_.decode_images;
   FrameReader reader(source_, std::max(options_.queue_frames, 1), decode);
   for (;;) {
     if (stop_ != nullptr && stop_->load()) {

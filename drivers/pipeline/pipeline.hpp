@@ -20,9 +20,10 @@ namespace unisim::pipeline {
 
 struct Options {
   KeyframeConfig keyframes;
-  int32_t queue_frames = 8;  ///< frames decoded ahead
-  bool every_frame = false;  ///< also pose the frames between keyframes
-  bool realtime = false;     ///< keep to the recorded times, drop late frames
+  int32_t queue_frames = 8;    ///< frames decoded ahead
+  bool every_frame = false;    ///< also pose the frames between keyframes
+  bool realtime = false;       ///< keep to the recorded times, drop late frames
+  bool decode_images = false;  ///< decode for the listeners, also where the predictor needs none
 };
 
 /// A pose as it was first given out, before any later correction.

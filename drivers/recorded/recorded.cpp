@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "drivers/recorded/origin.hpp"
 #include "drivers/recorded/prediction_codec.hpp"
 #include "drivers/recorded/record_format.hpp"
 #include "drivers/recorded/record_index.hpp"
@@ -282,6 +283,12 @@ void say(char* message, std::size_t size, const std::string& text) {
 }
 
 }  // namespace
+
+const char* recorded_origin(const unisim_predictor* predictor) {
+  if (predictor->destroy != destroy) return nullptr;
+  return static_cast<const Recorded*>(predictor)->reader.info().predictor.c_str();
+}
+
 }  // namespace unisim::recorded
 
 unisim_predictor* unisim_recorded_open(const char* path, char* message, size_t message_size) {
@@ -306,9 +313,4 @@ unisim_predictor* unisim_recorded_open(const char* path, char* message, size_t m
     say(message, message_size, "not enough memory to read the recording");
     return nullptr;
   }
-}
-
-const char* unisim_recorded_origin(const unisim_predictor* recorded) {
-  const auto* predictor = static_cast<const unisim::recorded::Recorded*>(recorded);
-  return predictor->reader.info().predictor.c_str();
 }

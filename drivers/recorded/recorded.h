@@ -48,10 +48,11 @@ const char* unisim_recorder_problem(const unisim_predictor* recorder);
  *  @return the predictor, NULL when the file is unreadable, damaged or of a newer version */
 unisim_predictor* unisim_recorded_open(const char* path, char* message, size_t message_size);
 
-/** Name of the predictor whose answers the file holds ("geometric"), "" if it does not say.
- *  @param recorded of unisim_recorded_open()
- *  @return valid until destroy() */
-const char* unisim_recorded_origin(const unisim_predictor* recorded);
+/** Name of the predictor that made the answers in the first place: for a recording the one that was
+ *  recorded, through a recorder that of the predictor inside, else the predictor's own name.
+ *  @param predictor any predictor
+ *  @return "geometric", ...; "" where a file does not say; valid until the predictor's destroy() */
+const char* unisim_predictor_origin(const unisim_predictor* predictor);
 
 #ifdef __cplusplus
 }

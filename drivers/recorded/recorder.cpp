@@ -6,6 +6,7 @@
 #include <new>
 #include <string>
 
+#include "drivers/recorded/origin.hpp"
 #include "drivers/recorded/prediction_codec.hpp"
 #include "drivers/recorded/record_format.hpp"
 #include "drivers/recorded/record_writer.hpp"
@@ -207,7 +208,7 @@ unisim_predictor* unisim_recorder_create(unisim_predictor* inner, const char* pa
     }
     recorder->file.creator = "libunisim " UNISIM_RECORDER_VERSION;
     recorder->file.sequence = sequence_name != nullptr ? sequence_name : "";
-    recorder->file.predictor = inner->name;
+    recorder->file.predictor = unisim_predictor_origin(inner);
     unisim::recorded::fill_table(recorder.get(), inner);
     return recorder.release();
   } catch (const std::bad_alloc&) {
@@ -218,4 +219,13 @@ unisim_predictor* unisim_recorder_create(unisim_predictor* inner, const char* pa
 
 const char* unisim_recorder_problem(const unisim_predictor* recorder) {
   return static_cast<const unisim::recorded::Recorder*>(recorder)->writer.problem().c_str();
+}
+
+const char* unisim_predictor_origin(const unisim_predictor* predictor) {
+  if (predictor->destroy == unisim::recorded::destroy) {
+    return unisim_predictor_origin(
+        static_cast<const unisim::recorded::Recorder*>(predictor)->inner);
+  }
+  const char* recorded = unisim::recorded::recorded_origin(predictor);
+  return recorded != nullptr ? recorded : predictor->name;
 }

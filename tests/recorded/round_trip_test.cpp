@@ -34,6 +34,7 @@ bool contains(const std::string& text, const std::string& part) {
 TEST_CASE("the recorder changes nothing of what it passes through") {
   const TempFolder folder;
   const Owned plain(make_scripted_predictor());
+  CHECK(std::string(unisim_predictor_origin(plain.get())) == "scripted");
   const Transcript expected = run_predictor(plain.get());
   const Transcript seen = record_scripted(folder.file("run.usr"));
   CHECK(seen.answers == expected.answers);
@@ -56,7 +57,6 @@ TEST_CASE("a recorded run repeats every answer at its time, bit for bit") {
   const Transcript expected = record_scripted(folder.file("run.usr"));
   const Owned recorded = open_recorded(folder.file("run.usr"));
   CHECK(recorded->needs_images == 0);
-  CHECK(std::string(unisim_recorded_origin(recorded.get())) == "scripted");
   const Transcript repeated = run_predictor(recorded.get());
   CHECK(repeated.answers == expected.answers);
   CHECK(repeated.messages == expected.messages);
@@ -64,7 +64,7 @@ TEST_CASE("a recorded run repeats every answer at its time, bit for bit") {
   REQUIRE(expected.answers.size() > 60);  // pairs, windows, revisions, poses were really asked for
 }
 
-TEST_CASE("a recording of a recorded run is the same file") {
+TEST_CASE("a recording of a recorded run repeats it and names the first predictor") {
   const TempFolder folder;
   record_scripted(folder.file("first.usr"));
   char message[300];
@@ -72,10 +72,12 @@ TEST_CASE("a recording of a recorded run is the same file") {
   unisim_predictor* recorder =
       unisim_recorder_create(inner, folder.file("second.usr").c_str(), "a sequence", message, 300);
   REQUIRE(recorder != nullptr);
+  CHECK(std::string(unisim_predictor_origin(recorder)) == "scripted");
   run_predictor(recorder);
   recorder->destroy(recorder);
   const Owned again = open_recorded(folder.file("second.usr"));
   const Owned first = open_recorded(folder.file("first.usr"));
+  CHECK(std::string(unisim_predictor_origin(again.get())) == "scripted");
   CHECK(run_predictor(again.get()).answers == run_predictor(first.get()).answers);
 }
 

@@ -178,12 +178,12 @@ TEST_CASE("equal confidence drops nothing") {
   CHECK(fuse(cloud, {{pose_of(0)}, {1.0}}).size() == kColumns * kRows);
 }
 
-TEST_CASE("a confidence asked for keeps measured pixels only") {
+TEST_CASE("pixels below a confidence asked for are left out") {
   const Picture picture;
   Window window(0);
-  std::fill(window.confidence.begin(), window.confidence.end(), 0.5F);
-  window.confidence[5] = 1.0F;
-  Cloud cloud(CloudOptions{0.25, unisim::replay::kMeasuredConfidence});
+  std::fill(window.confidence.begin(), window.confidence.end(), 0.25F);
+  window.confidence[5] = 0.31F;
+  Cloud cloud(CloudOptions{0.25, unisim::replay::kGeometricConfidence});
   cloud.on_keyframe(0, picture.frame);
   cloud.on_window(0, window.prediction);
   CHECK(fuse(cloud, {{pose_of(0)}, {1.0}}).size() == 1);

@@ -6,7 +6,9 @@
 
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
+#include "drivers/recorded/recorded.h"
 #include "tools/replay/cloud.hpp"
 #include "tools/replay/failure.hpp"
 #include "tools/replay/heap_counter.hpp"
@@ -47,6 +49,14 @@ void prepare(pipeline::Pipeline* pipeline) {
   if (preparation.answer == Answer::kReady) return;
   const int code = preparation.answer == Answer::kNoMemory ? kExitLimit : kExitUsage;
   throw Failure(code, preparation.message);
+}
+
+/// A recording of the geometric predictor is filtered as the predictor itself: the same map.
+CloudOptions cloud_options(const unisim_predictor* predictor) {
+  CloudOptions options;
+  const bool geometric = std::string_view(unisim_predictor_origin(predictor)) == "geometric";
+  if (geometric) options.min_confidence = kGeometricConfidence;
+  return options;
 }
 
 /// The map is drawn in the frame of trajectory.tum.
@@ -163,9 +173,11 @@ int replay(const Options& options, const std::atomic<bool>& stop) {
   for (const std::string& note : {sequence_note, predictor_note}) {
     if (!note.empty()) progress.on_message(note);
   }
-  Cloud cloud;
-  pipeline::Pipeline pipeline(options.settings.pipeline, source.get(), predictor.get(), config,
-                              {&progress, &cloud}, &stop, heap_counter());
+  Cloud cloud(cloud_options(predictor.get()));
+  pipeline::Options how = options.settings.pipeline;
+  how.decode_images = true;  // the map has colours, also where the predictor needs no images
+  pipeline::Pipeline pipeline(how, source.get(), predictor.get(), config, {&progress, &cloud},
+                              &stop, heap_counter());
   prepare(&pipeline);
   const pipeline::Result& result = pipeline.run();
   progress.finish();
