@@ -4,8 +4,8 @@
  *
  *  A session takes keyframes and the predictions made on them (two-view, multi-view), joins them in
  *  one factor graph on Sim(3) and gives back poses. It never calls a network, a camera, a clock,
- * the heap or a thread: unisim_next_request() says which prediction it wants next, the host makes
- * it when and where it likes and hands it in.
+ *  the heap or a thread: unisim_next_request() says which prediction it wants next, the host makes
+ *  it when and where it likes and hands it in.
  *
  *  Conventions, the same everywhere:
  *  - A similarity acts as  p' = s R p + t.  T_a_b takes points of frame b to frame a.
@@ -15,12 +15,11 @@
  *    nanoseconds of the host's choice of clock. Indices start at 0.
  *  - Every struct with `struct_size` is filled by its caller with sizeof the struct. A size below
  *    that of the first release is UNISIM_ERR_ABI_MISMATCH; a smaller one than today's takes
- * defaults for the missing tail; a larger one is accepted when the unknown tail is all zero.
+ *    defaults for the missing tail; a larger one is accepted when the unknown tail is all zero.
  *  - Pointers handed in are read during the call and not kept, the arena excepted.
  *  - One session, one thread at a time; different sessions are independent; there is no global
- * state.
- *  - On any error the session is as it was before the call.
- */
+ *    state.
+ *  - On any error the session is as it was before the call. */
 #ifndef UNISIM_UNISIM_H
 #define UNISIM_UNISIM_H
 
@@ -44,15 +43,13 @@ extern "C" {
 /** Result of a call. The numbers never move; 0 is success. */
 typedef int32_t unisim_status;
 #define UNISIM_OK 0
-#define UNISIM_ERR_INVALID_ARGUMENT \
-  1                                /**< NULL, non-finite number, unknown id: the caller's mistake */
+#define UNISIM_ERR_INVALID_ARGUMENT 1 /**< NULL, non-finite, unknown id: caller's mistake */
 #define UNISIM_ERR_CAPACITY 2      /**< a declared capacity or the caller's buffer is too small */
 #define UNISIM_ERR_OUT_OF_MEMORY 3 /**< the arena is smaller than unisim_arena_size() says */
 #define UNISIM_ERR_NOT_READY 4     /**< nothing to do or to give yet */
-#define UNISIM_ERR_NUMERICAL 5 /**< no descent or not positive definite; poses stay as they were \
-                                */
-#define UNISIM_ERR_INTERNAL 6  /**< broken invariant; every later call until reset says the same */
-#define UNISIM_ERR_ABI_MISMATCH 7 /**< struct_size is not one this library knows */
+#define UNISIM_ERR_NUMERICAL 5     /**< no descent or not positive definite; poses stay */
+#define UNISIM_ERR_INTERNAL 6      /**< broken invariant; all later calls until reset say so */
+#define UNISIM_ERR_ABI_MISMATCH 7  /**< struct_size is not one this library knows */
 
 /** Fixed text for a status code; never NULL. */
 UNISIM_API const char* unisim_status_string(unisim_status status);
@@ -126,12 +123,11 @@ typedef struct unisim_config {
   double loop_delta;          /**< Geman-McClure width of loop edges, whitened (0.1) */
   double live_scale_exponent; /**< g of the live chain: scale step r^g, 0..1 (0.5) */
   double confidence_drop; /**< share of least confident pixels left out of ratios, 0..0.9 (0.25) */
-  double
-      sigma_reference; /**< center_sigma at and below which an edge has its full weight (0.001) */
-  double sigma_gate;   /**< submaps with a larger center_sigma are refused (0.005) */
+  double sigma_reference; /**< center_sigma up to which an edge has its full weight (0.001) */
+  double sigma_gate;      /**< submaps with a larger center_sigma are refused (0.005) */
   double sigma_gate_loop; /**< the same for loops (0.002) */
-  double scatter_gate;    /**< submaps and pairs without center_sigma whose depth ratios scatter
-                               more (median absolute deviation of the log ratio) are refused (0.13) */
+  double scatter_gate;    /**< without center_sigma: submaps and pairs whose depth ratios scatter
+                               more (median absolute deviation of the log) are refused (0.13) */
   int32_t lost_after;     /**< rejected pairs in a row until the state is LOST (3) */
   int32_t max_iterations; /**< cap of one unisim_optimize() whose budget says 0 (10) */
   unisim_log_fn log;      /**< NULL: silent */
@@ -172,13 +168,13 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_arena_parts(const unisim_config
 typedef struct unisim_session unisim_session;
 
 /** Make a session in the caller's memory. The last thing that could need memory: nothing is asked
- * of the system here or later.
+ *  of the system here or later.
  *  @param[out] session set on success
  *  @param[in]  config  copied
  *  @param[in]  arena   caller's, any alignment, kept until unisim_session_destroy()
  *  @param      size    bytes of arena, at least unisim_arena_size()
  *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_OUT_OF_MEMORY,
- * UNISIM_ERR_ABI_MISMATCH */
+ *          UNISIM_ERR_ABI_MISMATCH */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_session_create(unisim_session** session,
                                                                 const unisim_config* config,
                                                                 void* arena, size_t size);
@@ -202,7 +198,7 @@ typedef struct unisim_keyframe {
  *  @param[in]  keyframe timestamps must grow
  *  @param[out] id       0, 1, 2 ... in order of arrival
  *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT (NULL, time not after the last),
- * UNISIM_ERR_CAPACITY */
+ *          UNISIM_ERR_CAPACITY */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_keyframe(unisim_session* session,
                                                               const unisim_keyframe* keyframe,
                                                               int32_t* id);
@@ -223,12 +219,12 @@ typedef struct unisim_two_view {
 /** Add the two-view prediction of keyframes i and i + 1: sets the live pose of i + 1.
  *
  *  depth_i is compared with the depth keyframe i had in the pair before: that ratio carries scale
- * along the chain. With fewer than 16 grid cells in common it is taken as 1 and the edge counts a
- * hundredth.
+ *  along the chain. With fewer than 16 grid cells in common it is taken as 1 and the edge counts a
+ *  hundredth.
  *  @return UNISIM_OK (refused for its quality too: then unisim_get_info() counts it, the pose is
- * held and the state is DEGRADED or LOST); UNISIM_ERR_INVALID_ARGUMENT on NULL, non-finite numbers,
- *          scale other than 1, ids not consecutive or already given; UNISIM_ERR_NOT_READY when
- * keyframe j or the pair before is not there yet */
+ *          held and the state is DEGRADED or LOST); UNISIM_ERR_INVALID_ARGUMENT on NULL,
+ *          non-finite numbers, scale other than 1, ids not consecutive or already given;
+ *          UNISIM_ERR_NOT_READY when keyframe j or the pair before is not there yet */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_two_view(unisim_session* session,
                                                               const unisim_two_view* two_view);
 
@@ -237,23 +233,23 @@ typedef struct unisim_submap {
   uint32_t struct_size;
   int32_t count;               /**< views, 2..window_size */
   const int32_t* keyframe_ids; /**< count ids, ascending; views the predictor lost are left out */
-  const unisim_sim3*
-      T_submap_kf; /**< count poses, scale 1, any gauge: re-anchored to the centre view */
-  const unisim_depth_map* depth; /**< count maps, same unit as the poses */
-  double center_sigma;           /**< as in unisim_two_view */
+  const unisim_sim3* T_submap_kf; /**< count poses, scale 1, any gauge */
+  const unisim_depth_map* depth;  /**< count maps, same unit as the poses */
+  double center_sigma;            /**< as in unisim_two_view */
 } unisim_submap;
 
 /** Add the submap of a window; answers the UNISIM_REQUEST_WINDOW with its keyframes, or the oldest
- * that holds them all.
+ *  that holds them all.
  *
  *  A view without 16 grid cells of depth in common with its keyframe's two-view depth takes no
- * part; a keyframe whose pair was refused gets its pose from the submap. A submap over two segments
- * joins them: the younger one moves as a whole.
+ *  part; a keyframe whose pair was refused gets its pose from the submap. A submap over two
+ *  segments joins them: the younger one moves as a whole.
  *  @param[out] submap_id id for unisim_update_submap(); -1 when refused for its quality, or when
- * fewer than two views are left: unisim_get_info() counts it, the request is answered
+ *                        fewer than two views are left: unisim_get_info() counts it, the request is
+ *                        answered
  *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT (also: no open request holds the keyframes),
- *          UNISIM_ERR_CAPACITY, UNISIM_ERR_NOT_READY (a keyframe whose two-view prediction is open)
- */
+ *          UNISIM_ERR_CAPACITY, UNISIM_ERR_NOT_READY (a keyframe whose two-view prediction is
+ *          open) */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_submap(unisim_session* session,
                                                             const unisim_submap* submap,
                                                             int32_t* submap_id);
@@ -266,23 +262,23 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_loop(unisim_session* sessio
                                                           const unisim_submap* submap,
                                                           int32_t* submap_id);
 
-/** Better measurements of a submap that is in the graph (the predictor has re-adjusted the window).
- */
+/** Better measurements of a submap that is in the graph (the predictor has re-adjusted the
+ *  window). */
 typedef struct unisim_submap_update {
   uint32_t struct_size;
   int32_t submap_id;
   int32_t count;                  /**< the count it was added with */
   int32_t reserved;               /**< 0 */
   const unisim_sim3* T_submap_kf; /**< count poses, scale 1, any gauge */
-  const double* log_depth_ratio;  /**< count values: log median(new depth / old depth) of each view;
-                                     the old  depth is that of the last measurement handed in */
+  const double* log_depth_ratio;  /**< count values: log median(new / old depth) of each view; old:
+                                     of the last measurement handed in */
   double center_sigma;            /**< as in unisim_two_view */
 } unisim_submap_update;
 
 /** Replace the measurement of a submap: poses, depth ratios, quality. Beyond the gate the old one
  *  stays; unisim_get_info() counts that among the refused.
  *  @return UNISIM_OK (refused for its quality too), UNISIM_ERR_INVALID_ARGUMENT (also: unknown
- * submap, other count) */
+ *          submap, other count) */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_update_submap(unisim_session* session,
                                                                const unisim_submap_update* update);
 
@@ -301,8 +297,8 @@ typedef struct unisim_request {
 } unisim_request;
 
 /** The oldest open request of the given kinds. Pairs (0,1), (1,2) ... in order; a window once all
- * its pairs are settled, with UNISIM_PRESET_PAPER the pair after it too. UNISIM_REQUEST_LOOP is
- * kept for later: loops are the host's to find. Asking does not change it: it stays open until the
+ *  its pairs are settled, with UNISIM_PRESET_PAPER the pair after it too. UNISIM_REQUEST_LOOP is
+ *  kept for later: loops are the host's to find. Asking does not change it: it stays open until the
  *  prediction is added or unisim_reject_request() is called.
  *  @param      kinds   bits of UNISIM_REQUEST_*
  *  @param[out] request filled on success
@@ -312,8 +308,8 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_next_request(unisim_session* se
                                                               unisim_request* request);
 
 /** Say that the prediction cannot be made (lost track, rejected by the predictor). A pair: the pose
- * of j is held and the state falls to DEGRADED, after lost_after in a row to LOST; a later pair
- * that succeeds starts a new segment. A window: it is left out of the map.
+ *  of j is held and the state falls to DEGRADED, after lost_after in a row to LOST; a later pair
+ *  that succeeds starts a new segment. A window: it is left out of the map.
  *  @param[in] request as unisim_next_request() gave it
  *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT when it is not an open request */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_reject_request(unisim_session* session,
@@ -362,9 +358,9 @@ typedef struct unisim_report {
  *  last accepted step. Each segment keeps its first keyframe where it is.
  *  @param[in]  budget NULL: the configured cap
  *  @param[out] report may be NULL
- *  @return UNISIM_OK, UNISIM_ERR_NOT_READY with nothing to optimise, UNISIM_ERR_NUMERICAL (report
- * says where), UNISIM_ERR_CAPACITY when loops tangle the graph beyond the solver's memory,
- *          UNISIM_ERR_INVALID_ARGUMENT */
+ *  @return UNISIM_OK, UNISIM_ERR_NOT_READY with nothing to optimise, UNISIM_ERR_NUMERICAL
+ *          (report says where), UNISIM_ERR_CAPACITY when loops tangle the graph beyond the
+ *          solver's memory, UNISIM_ERR_INVALID_ARGUMENT */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_optimize(unisim_session* session,
                                                           const unisim_budget* budget,
                                                           unisim_report* report);
@@ -385,10 +381,9 @@ typedef struct unisim_pose {
   int64_t timestamp_ns;
   unisim_sim3 T_world_kf; /**< scale: unit of the keyframe's two-view prediction to the world */
   int32_t state;          /**< UNISIM_STATE_* when the keyframe was taken */
-  int32_t
-      confidence; /**< 0 held or unknown, 1 pair only, 2 in a submap, 3 in two or a closed loop */
-  int32_t submap_id; /**< submap that covers it best, -1 if none */
-  int32_t segment;   /**< keyframes of different segments have no common frame or scale */
+  int32_t confidence;     /**< 0 held or unknown, 1 pair only, 2 in a submap, 3 in two or a loop */
+  int32_t submap_id;      /**< submap that covers it best, -1 if none */
+  int32_t segment;        /**< keyframes of different segments have no common frame or scale */
 } unisim_pose;
 
 /** Latest pose of one keyframe.
@@ -409,8 +404,8 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_trajectory(const unisim_ses
  *  unisim_optimize(), times its variance of unit weight (2 cost / degrees of freedom). Zero for the
  *  first keyframe of a segment, which is held. Cost: one factorisation for the first keyframe asked
  *  for, one solve with seven right-hand sides for each.
- *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_NOT_READY when the graph has changed
- * since or the pose is held, UNISIM_ERR_NUMERICAL */
+ *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_NOT_READY when the graph has
+ *          changed since or the pose is held, UNISIM_ERR_NUMERICAL */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_covariance(unisim_session* session,
                                                                 int32_t keyframe_id,
                                                                 double covariance[49]);
