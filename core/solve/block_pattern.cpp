@@ -11,7 +11,7 @@ namespace {
 
 int32_t work_size(const SolverCapacity& c) {
   const int64_t ordering = minimum_degree_workspace(c.nodes, c.pairs);
-  const int64_t buckets = static_cast<int64_t>(c.edges) + 2 * c.nodes + 1;
+  const int64_t buckets = c.edges + 2 * static_cast<int64_t>(c.nodes) + 1;
   return static_cast<int32_t>(std::max(ordering, buckets));
 }
 

@@ -6,8 +6,8 @@
 
 namespace unisim {
 
-/// Largest problem a solver takes. Memory is about 0.5 kB per node, 16 bytes per edge, 0.5 kB per
-/// pair and 0.45 kB per factor block.
+/// Largest problem a solver takes. Memory is about 1.2 kB per node, 12 bytes per edge, 0.48 kB per
+/// pair pair and 0.45 kB per factor block.
 struct SolverCapacity {
   int32_t nodes = 0;          ///< as in GraphCapacity
   int32_t edges = 0;          ///< as in GraphCapacity
