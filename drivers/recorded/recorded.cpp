@@ -83,12 +83,12 @@ int repeat_rejection(Recorded& recorded, const RecordRef& record) {
   return reject(recorded, why.empty() ? "rejected in the recording" : why);
 }
 
-std::string absent(const Recorded& recorded, const std::string& what) {
-  const std::string text = what + " is not in " + recorded.path;
+std::string absent(const Recorded& recorded) {
   if (recorded.index.complete()) {
-    return text + ": recorded with other options (keyframes, --window, --overlap, --stride)";
+    return "not in " + recorded.path +
+           ": recorded with other options (keyframes, --window, --overlap, --stride)";
   }
-  return text + ": that recording was cut off after keyframe " +
+  return "not in " + recorded.path + ": that recording was cut off at keyframe " +
          std::to_string(static_cast<std::int64_t>(recorded.index.keyframes().size()) - 1) +
          " or made with other options";
 }
@@ -98,7 +98,7 @@ template <class Decode>
 int answer(Recorded& recorded, const Question& question, const std::string& what,
            DecodedArrays* arrays, Decode decode) {
   RecordedAnswers* answers = recorded.index.find_answers(question);
-  if (answers == nullptr) return reject(recorded, absent(recorded, what));
+  if (answers == nullptr) return reject(recorded, absent(recorded));
   RecordedAnswer* due = due_answer(answers, recorded.now);
   if (due == nullptr) return UNISIM_PREDICTION_PENDING;
   due->given = true;
@@ -144,10 +144,10 @@ int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motio
       motion->tracked = seen->tracked;
       if (seen->status != UNISIM_PREDICTION_OK) return repeat_rejection(recorded, seen->record);
     } else if (!index.frames().empty()) {
-      return reject(recorded, "not in " + recorded.path + ", which has frames " +
-                                  std::to_string(index.frames().front().index) + " to " +
-                                  std::to_string(index.frames().back().index) +
-                                  " or fewer: use the same --from and --to");
+      const std::int64_t first = index.frames().front().index;
+      const std::int64_t last = index.frames().back().index;
+      return reject(recorded, "not in " + recorded.path + ", which was made with --from " +
+                                  std::to_string(first) + " --to " + std::to_string(last + 1));
     }
     return UNISIM_PREDICTION_OK;
   });
