@@ -35,10 +35,14 @@ function(unisim_scan folder)
   set(failures ${failures} ${found} PARENT_SCOPE)
 endfunction()
 
-# unisim_scan_forbidden(FOLDER FORBIDDEN...): no include of the folder may match one of these.
+# unisim_scan_forbidden(FOLDER FORBIDDEN...): no include of the folder may match one of these. Files that
+# match the variable `exempt`, where it is set, are passed over.
 function(unisim_scan_forbidden folder)
   file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.hpp
     ${ROOT}/${folder}/*.c ${ROOT}/${folder}/*.cpp)
+  if(exempt)
+    list(FILTER files EXCLUDE REGEX "${exempt}")
+  endif()
   set(found "")
   foreach(file IN LISTS files)
     file(STRINGS ${ROOT}/${file} lines REGEX "^[ \t]*#[ \t]*include")
