@@ -13,7 +13,7 @@ namespace {
 
 // Seeds that find something are kept in the range.
 constexpr uint32_t kFirstSeed = 1;
-constexpr uint32_t kSeeds = 200;
+constexpr uint32_t kSeeds = 60;
 
 /// UNISIM_FUZZ_SEEDS asks for a longer run by hand.
 uint32_t seeds() {
