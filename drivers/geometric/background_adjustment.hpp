@@ -3,6 +3,7 @@
 // at a fixed later keyframe, so that the result does not depend on the thread's speed.
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -22,8 +23,10 @@ class BackgroundAdjustment {
   BackgroundAdjustment& operator=(const BackgroundAdjustment&) = delete;
 
   bool running() const { return pending_; }
-  /// Keyframe that was newest when the pending adjustment began.
-  int32_t started_at() const { return started_at_; }
+  /// Keyframe with which the pending adjustment is due to be merged. A larger state takes longer.
+  int32_t due_at(int32_t latency) const {
+    return started_at_ + std::max(latency, static_cast<int32_t>(keyframes_.size()) / 12);
+  }
 
   /// Copies the segment's posed keyframes and begins.
   void start(const State& state, int32_t keyframe, int iterations);

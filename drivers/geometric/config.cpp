@@ -15,8 +15,8 @@ void unisim_geometric_config_init(unisim_geometric_config* config, size_t struct
   defaults.max_landmarks = 8000;
   defaults.max_window_views = 1024;
   defaults.window_size = 16;
-  defaults.adjust_every = 25;
-  defaults.adjust_latency = 5;
+  defaults.adjust_every = 10;
+  defaults.adjust_latency = 4;
   defaults.background = 1;
   defaults.revive_age = 100;
   defaults.revive_tries = 150;

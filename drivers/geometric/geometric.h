@@ -24,8 +24,10 @@ typedef struct unisim_geometric_config {
   int32_t max_landmarks;     /**< kept in the state, at least 4 max_tracks (8000) */
   int32_t max_window_views;  /**< views of given-out windows kept for revisions (1024) */
   int32_t window_size;       /**< keyframes adjusted with each new one, 5..64 (16) */
-  int32_t adjust_every;      /**< keyframes between adjustments of the whole state, 0: never (25) */
-  int32_t adjust_latency;    /**< keyframes after which such an adjustment is merged (5) */
+  int32_t adjust_every;      /**< keyframes between adjustments of the whole state, more when
+                                it has grown large; 0: never (10) */
+  int32_t adjust_latency;    /**< keyframes after which such an adjustment is merged, more when
+                                the state has grown large (4) */
   int32_t background;        /**< 1: whole-state adjustments run in a thread of their own (1) */
   int32_t revive_age;        /**< keyframes a landmark may be out of sight and be looked for (100) */
   int32_t revive_tries;      /**< landmarks looked for per keyframe (150) */

@@ -16,6 +16,8 @@ constexpr int kEarlyIterations = 8;
 constexpr int kWindowIterations = 4;
 constexpr double kWindowTolerance = 1e-2;
 constexpr int kWholeIterations = 6;
+constexpr int32_t kWholeGapShare =
+    10;  // of the keyframes held: least gap between adjustments of all
 constexpr int kFinalIterations = 15;
 constexpr int kFinalRounds = 2;
 constexpr size_t kMaxEarlyWindow = 32;
@@ -106,7 +108,7 @@ bool Mapper::add_keyframe(int32_t id) {
   front_end_.begin_keyframe(&state_.tracks);
   note_followed();
   bool adjusted = false;
-  if (background_.running() && id - background_.started_at() >= state_.config.adjust_latency) {
+  if (background_.running() && id >= background_.due_at(state_.config.adjust_latency)) {
     adjusted = background_.merge(&state_);
   }
   if (state_.initialised) {
@@ -163,10 +165,16 @@ void Mapper::track(int32_t id) {
   adjust_window(id);
   note_motion(id);
   revive_.store_patches(state_, front_end_.current(), id, &patches_);
-  const int32_t every = state_.config.adjust_every;
-  if (every > 0 && state_.posed % every == 0 && !state_.early() && !background_.running()) {
-    background_.start(state_, id, kWholeIterations);
-  }
+  adjust_whole(id);
+}
+
+void Mapper::adjust_whole(int32_t id) {
+  if (state_.config.adjust_every == 0 || state_.early() || background_.running()) return;
+  const int32_t held = std::min(state_.posed, state_.map.end_id() - state_.map.first_id());
+  const int32_t gap = std::max(state_.config.adjust_every, held / kWholeGapShare);
+  if (state_.posed < adjusted_posed_ + gap) return;
+  adjusted_posed_ = state_.posed;
+  background_.start(state_, id, kWholeIterations);
 }
 
 void Mapper::lose(int32_t id) {
@@ -186,6 +194,7 @@ void Mapper::begin_segment(int32_t id) {
   state_.segment_start = id;
   state_.initialised = false;
   state_.posed = 0;
+  adjusted_posed_ = 0;
   bootstrap_.restart(id);
   for (size_t i = 0; i < state_.tracks.size(); ++i) {
     state_.map.landmark(state_.tracks.landmark[i]).followed = false;

@@ -53,6 +53,7 @@ class Mapper {
   void begin_segment(int32_t id);
   void grow(int32_t id);
   void adjust_window(int32_t id);
+  void adjust_whole(int32_t id);
   void note_motion(int32_t id);
 
   State state_;
@@ -68,6 +69,7 @@ class Mapper {
   MapperCounts counts_;
   StartOutcome start_outcome_ = StartOutcome::kNotMoving;
   int lost_in_row_ = 0;
+  int32_t adjusted_posed_ = 0;  // keyframes posed when the whole state was last adjusted
 };
 
 }  // namespace unisim::geometric

@@ -6,6 +6,12 @@
 
 namespace unisim::geometric {
 
+namespace {
+// A pair is measured before later keyframes have improved it, and its window will say the same
+// thing better: it is held loosely.
+constexpr double kPairSigma = 0.003;
+}  // namespace
+
 Predictions::Predictions(const unisim_geometric_config& config, const cv::Size& image)
     : grid_size_(depth_grid_size(image)),
       windows_(static_cast<size_t>(config.max_window_views),
@@ -51,7 +57,7 @@ int Predictions::pair(const Mapper& mapper, int32_t i, int32_t j, unisim_pair_pr
   out->depth_i = fill(state, i, 0, &pair_maps_);
   out->depth_j = fill(state, j, 1, &pair_maps_);
   out->focal_px = state.intrinsics.camera.focal_px;
-  out->center_sigma = second.center_sigma;
+  out->center_sigma = std::max(kPairSigma, second.center_sigma);
   return UNISIM_PREDICTION_OK;
 }
 

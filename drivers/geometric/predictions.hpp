@@ -21,7 +21,10 @@ class Predictions {
   int window(Mapper* mapper, const int32_t* ids, int32_t count, unisim_window_prediction* out,
              const char** why);
   int revision(const Mapper& mapper, unisim_window_revision* out);
-  void state_improved() { windows_.state_improved(); }
+  /// Says that the whole state was adjusted: every window may be due for a revision.
+  void state_adjusted() { windows_.look_again_at_all(); }
+  /// Says that a keyframe was added, which moves the newest windows a little.
+  void state_grew() { windows_.look_again_at_newest(); }
   int64_t bytes() const;
 
  private:

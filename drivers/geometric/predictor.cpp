@@ -99,7 +99,11 @@ int keyframe(unisim_predictor* predictor, const unisim_frame*, int32_t id) {
       return UNISIM_PREDICTION_FAILED;
     }
     ++me->keyframes;
-    if (me->mapper->add_keyframe(id)) me->predictions->state_improved();
+    if (me->mapper->add_keyframe(id)) {
+      me->predictions->state_adjusted();
+    } else {
+      me->predictions->state_grew();
+    }
     return UNISIM_PREDICTION_OK;
   });
 }
@@ -150,7 +154,7 @@ int frame_pose(unisim_predictor* predictor, unisim_frame_pose* out) {
 
 int finish(unisim_predictor* predictor) {
   return guarded(predictor, [&](GeometricPredictor* me) {
-    if (me->mapper && me->mapper->finish()) me->predictions->state_improved();
+    if (me->mapper && me->mapper->finish()) me->predictions->state_adjusted();
     return UNISIM_PREDICTION_OK;
   });
 }

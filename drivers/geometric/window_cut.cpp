@@ -9,7 +9,11 @@
 namespace unisim::geometric {
 
 namespace {
-constexpr double kNoticeable = 1e-4;  // of the median depth, and rad, and of log depth
+// Changes worth a revision: of the median depth, in rad and of log depth.
+constexpr double kNoticeable = 1e-4;
+constexpr double kNoticeableInPassing =
+    5e-4;  // where the next adjustment of all will say it better
+constexpr int64_t kNewestWindows = 2;
 
 double depth_of(const State& state, int32_t keyframe, int32_t index, uint32_t* owner) {
   const Observation& seen = state.map.observation(keyframe, index);
@@ -105,8 +109,8 @@ double WindowCut::log_depth_ratio(const State& state, int64_t view) {
   return *middle;
 }
 
-double WindowCut::change(const State& state, const Window& window,
-                         const std::vector<double>& ratios) const {
+bool WindowCut::changed(const State& state, const Window& window,
+                        const std::vector<double>& ratios) const {
   const auto center_view = static_cast<size_t>(window.count / 2);
   const View& center = views_[place(window.first_view + static_cast<int64_t>(center_view))];
   const CameraPose& center_now = state.map.keyframe(center.keyframe).pose;
@@ -123,7 +127,18 @@ double WindowCut::change(const State& state, const Window& window,
     most = std::max({most, (offset_now / scale - offset).norm() / unit, (turn_now - turn).norm(),
                      std::abs(ratios[i] - ratios[center_view])});
   }
-  return most;
+  return most > noticeable_;
+}
+
+void WindowCut::look_again_at_all() {
+  next_ = oldest_;
+  noticeable_ = kNoticeable;
+}
+
+void WindowCut::look_again_at_newest() {
+  if (next_ < end_token_) return;  // a look at all is not finished
+  next_ = std::max(oldest_, end_token_ - kNewestWindows);
+  noticeable_ = kNoticeableInPassing;
 }
 
 bool WindowCut::next_revision(const State& state, WindowRevision* out) {
@@ -135,7 +150,7 @@ bool WindowCut::next_revision(const State& state, WindowRevision* out) {
       out->log_depth_ratio.push_back(
           log_depth_ratio(state, window.first_view + static_cast<int64_t>(i)));
     }
-    if (change(state, window, out->log_depth_ratio) < kNoticeable) continue;
+    if (!changed(state, window, out->log_depth_ratio)) continue;
     out->token = window.token;
     out->center_sigma = window.center_sigma;
     out->poses.clear();

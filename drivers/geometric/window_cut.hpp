@@ -30,8 +30,10 @@ class WindowCut {
 
   /// Notes a window of posed keyframes as given out now. @return its token
   int64_t give(const State& state, const int32_t* ids, size_t count, double center_sigma);
-  /// Says that the state has improved: every window is looked at again.
-  void state_improved() { next_ = oldest_; }
+  /// The whole state was adjusted: next_revision() looks at every window again.
+  void look_again_at_all();
+  /// The newest keyframes were adjusted: next_revision() looks at the newest windows again.
+  void look_again_at_newest();
   /// The next window whose poses or depths have changed noticeably. @return false when none is left
   bool next_revision(const State& state, WindowRevision* out);
 
@@ -53,7 +55,7 @@ class WindowCut {
   void record(const State& state, int32_t keyframe, int64_t view);
   bool measurable(const State& state, const Window& window) const;
   double log_depth_ratio(const State& state, int64_t view);
-  double change(const State& state, const Window& window, const std::vector<double>& ratios) const;
+  bool changed(const State& state, const Window& window, const std::vector<double>& ratios) const;
 
   std::vector<View> views_;
   std::vector<float> depths_;     // of each view's observations; 0: none
@@ -64,6 +66,7 @@ class WindowCut {
   int64_t end_token_ = 0;
   int64_t oldest_ = 0;  // oldest token remembered
   int64_t next_ = 0;    // next token to look at
+  double noticeable_ = 0;
   std::vector<double> scratch_;
 };
 
