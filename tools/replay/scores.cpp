@@ -18,8 +18,10 @@ eval::Trajectory estimate(const std::string& name, const std::vector<unisim_stam
 
 /// Empty, or why no pose of the run has a partner in time.
 std::string clock_problem(const eval::Trajectory& truth, const eval::Trajectory& run) {
-  const double first = truth.poses.front().time_s, last = truth.poses.back().time_s;
-  const double from = run.poses.front().time_s, to = run.poses.back().time_s;
+  const double first = truth.poses.front().time_s;
+  const double last = truth.poses.back().time_s;
+  const double from = run.poses.front().time_s;
+  const double to = run.poses.back().time_s;
   if (from <= last + kMaxTimeDifference_s && to >= first - kMaxTimeDifference_s) return {};
   char line[160];
   std::snprintf(
