@@ -7,6 +7,7 @@
 #include <string>
 
 #include "drivers/replay/text_file.hpp"
+#include "tools/bench/depth/depth_command.hpp"
 #include "tools/bench/solver/solver_command.hpp"
 #include "tools/bench/walk/walk_command.hpp"
 #include "tools/replay/failure.hpp"
@@ -55,6 +56,13 @@ void add_window(CLI::App* app, WalkSettings* settings, bool* json) {
   command->add_flag("--json", *json, "one line of JSON");
 }
 
+void add_depth(CLI::App* app, DepthSettings* settings) {
+  CLI::App* command = app->add_subcommand("depth", "Ratios of depth maps, by size");
+  command->add_option("--repeat", settings->repeat, "measurements per size, the median is shown")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--json", settings->json, "one line of JSON");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -65,9 +73,12 @@ int main(int argc, char** argv) {
   WalkSettings walk;
   bool walk_json = false;
   add_window(&app, &walk, &walk_json);
+  DepthSettings depth;
+  add_depth(&app, &depth);
   try {
     app.parse(argc, argv);
     if (app.got_subcommand("window")) return walk_command(walk, walk_json);
+    if (app.got_subcommand("depth")) return depth_command(depth);
     return solver_command(solver);
   } catch (const CLI::CallForHelp&) {
     std::printf("%s", app.help().c_str());
