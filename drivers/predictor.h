@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /** @file predictor.h
- *  A predictor turns images into two-view and multi-view predictions. A network, a recording and our
- *  own geometry answer through the same table; nothing behind it knows of the session.
+ *  A predictor turns images into two-view and multi-view predictions. A network, a recording and
+ * our own geometry answer through the same table; nothing behind it knows of the session.
  *
- *  Order of calls: observe() for every frame in time order; keyframe() when the frame just observed is
- *  taken as a keyframe; then two_view(), multi_view(), next_revision() as the session asks.
+ *  Order of calls: observe() for every frame in time order; keyframe() when the frame just observed
+ * is taken as a keyframe; then two_view(), multi_view(), next_revision() as the session asks.
  *  Results are borrowed: valid until the next call of the same function. One thread at a time.
  */
 #ifndef UNISIM_DRIVERS_PREDICTOR_H
@@ -23,13 +23,16 @@ extern "C" {
 #define UNISIM_PREDICTION_OK 0
 #define UNISIM_PREDICTION_PENDING 1  /**< not known yet: ask again after the next keyframe */
 #define UNISIM_PREDICTION_REJECTED 2 /**< cannot be made; message() says why */
-#define UNISIM_PREDICTION_FAILED 3   /**< the predictor is of no more use; message() says what to do */
+#define UNISIM_PREDICTION_FAILED \
+  3 /**< the predictor is of no more use; message() says what to do */
 
 /** What a frame says about the camera's motion. */
 typedef struct unisim_motion {
-  double flow;             /**< median displacement since the last keyframe over the image diagonal; < 0: not measured */
-  double tracked;          /**< share of the last keyframe's features still seen, 0..1; < 0: not measured */
-  int32_t keyframe_advice; /**< 1: this frame must be a keyframe, -1: must not, 0: the caller decides */
+  double flow;    /**< median displacement since the last keyframe over the image diagonal; < 0: not
+                     measured */
+  double tracked; /**< share of the last keyframe's features still seen, 0..1; < 0: not measured */
+  int32_t
+      keyframe_advice; /**< 1: this frame must be a keyframe, -1: must not, 0: the caller decides */
 } unisim_motion;
 
 /** Two-view prediction of keyframes i, j. Unit of length: the predictor's choice for each call. */
@@ -88,7 +91,8 @@ struct unisim_predictor {
   /** See one frame. @return UNISIM_PREDICTION_OK, _REJECTED (frame of no use), _FAILED */
   int (*observe)(unisim_predictor* predictor, const unisim_frame* frame, unisim_motion* motion);
 
-  /** The frame observed last is keyframe `id` (0, 1, 2 ...). @return UNISIM_PREDICTION_OK, _FAILED */
+  /** The frame observed last is keyframe `id` (0, 1, 2 ...). @return UNISIM_PREDICTION_OK, _FAILED
+   */
   int (*keyframe)(unisim_predictor* predictor, const unisim_frame* frame, int32_t id);
 
   /** Pair (i, j = i + 1). @return UNISIM_PREDICTION_* */
@@ -104,7 +108,8 @@ struct unisim_predictor {
   /** Pose of the frame observed last; optional. @return UNISIM_PREDICTION_* */
   int (*frame_pose)(unisim_predictor* predictor, unisim_frame_pose* out);
 
-  /** End of the recording: finish what runs in the background, so that last revisions can be asked for; optional. */
+  /** End of the recording: finish what runs in the background, so that last revisions can be asked
+   * for; optional. */
   int (*finish)(unisim_predictor* predictor);
 
   void (*info)(unisim_predictor* predictor, unisim_predictor_info* out);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /** @file source.h
- *  A source of frames: a recorded sequence or a camera. A table of functions, so that each reader and
- *  each camera driver is one file that knows nothing of the others.
- *  One source, one thread at a time.
+ *  A source of frames: a recorded sequence or a camera. A table of functions, so that each reader
+ * and each camera driver is one file that knows nothing of the others. One source, one thread at a
+ * time.
  */
 #ifndef UNISIM_DRIVERS_SOURCE_H
 #define UNISIM_DRIVERS_SOURCE_H
@@ -30,9 +30,11 @@ typedef struct unisim_stamped_pose {
 } unisim_stamped_pose;
 
 #define UNISIM_FRAME_OK 0
-#define UNISIM_FRAME_END 1    /**< no more frames */
-#define UNISIM_FRAME_BAD 2    /**< this frame is unreadable: message() says why; the next call goes on */
-#define UNISIM_FRAME_FAILED 3 /**< the source is of no more use: message() says what, where, what to do */
+#define UNISIM_FRAME_END 1 /**< no more frames */
+#define UNISIM_FRAME_BAD \
+  2 /**< this frame is unreadable: message() says why; the next call goes on */
+#define UNISIM_FRAME_FAILED \
+  3 /**< the source is of no more use: message() says what, where, what to do */
 
 /** A source. Free with destroy(source). */
 typedef struct unisim_source unisim_source;
@@ -48,7 +50,8 @@ struct unisim_source {
   /** Decode the image of the frame that next_frame() gave last. @return UNISIM_FRAME_OK or _BAD */
   int (*decode)(unisim_source* source, unisim_frame* frame);
 
-  /** Ground truth the sequence carries. @param[out] poses owned by the source @return their number, 0 if none */
+  /** Ground truth the sequence carries. @param[out] poses owned by the source @return their number,
+   * 0 if none */
   int64_t (*ground_truth)(unisim_source* source, const unisim_stamped_pose** poses);
 
   /** Where the ground truth was read, "" if none. */
