@@ -15,24 +15,24 @@
 extern "C" {
 #endif
 
-/** Everything a geometric predictor is made with. Its memory follows from these numbers and the size
- *  of the first image. */
+/** Everything a geometric predictor is made with. Its memory follows from these numbers and the
+ * size of the first image. */
 typedef struct unisim_geometric_config {
   uint32_t struct_size;
-  int32_t max_tracks;        /**< features followed at a time, 50..2000 (300) */
-  int32_t max_keyframes;     /**< kept in the state, the oldest is dropped first, 32..4096 (180) */
-  int32_t max_landmarks;     /**< kept in the state, at least 4 max_tracks (5000) */
-  int32_t max_window_views;  /**< views of given-out windows kept for revisions (512) */
-  int32_t window_size;       /**< keyframes adjusted with each new one, 5..64 (16) */
-  int32_t adjust_every;      /**< keyframes between adjustments of the whole state, more when
-                                it has grown large; 0: never (10) */
-  int32_t adjust_latency;    /**< keyframes after which such an adjustment is merged, more when
-                                the state has grown large (4) */
-  int32_t background;        /**< 1: whole-state adjustments run in a thread of their own (1) */
-  int32_t revive_age;        /**< keyframes a landmark may be out of sight and be looked for (100) */
-  int32_t revive_tries;      /**< landmarks looked for per keyframe (150) */
-  int32_t reserved;          /**< 0 */
-  double focal_px;           /**< known focal length in pixels; 0: estimate it (0) */
+  int32_t max_tracks;       /**< features followed at a time, 50..2000 (300) */
+  int32_t max_keyframes;    /**< kept in the state, the oldest is dropped first, 32..4096 (180) */
+  int32_t max_landmarks;    /**< kept in the state, at least 4 max_tracks (5000) */
+  int32_t max_window_views; /**< views of given-out windows kept for revisions (512) */
+  int32_t window_size;      /**< keyframes adjusted with each new one, 5..64 (16) */
+  int32_t adjust_every;     /**< keyframes between adjustments of the whole state, more when
+                               it has grown large; 0: never (10) */
+  int32_t adjust_latency;   /**< keyframes after which such an adjustment is merged, more when
+                               the state has grown large (4) */
+  int32_t background;       /**< 1: whole-state adjustments run in a thread of their own (1) */
+  int32_t revive_age;       /**< keyframes a landmark may be out of sight and be looked for (100) */
+  int32_t revive_tries;     /**< landmarks looked for per keyframe (150) */
+  int32_t reserved;         /**< 0 */
+  double focal_px;          /**< known focal length in pixels; 0: estimate it (0) */
 } unisim_geometric_config;
 
 /** Defaults for every field.
