@@ -46,7 +46,8 @@ bool sizes_in_range(const unisim_config& c) {
          within(c.max_submaps, 0, 65536) && within(c.max_loops, 0, 4096) &&
          within(c.depth_grid_width, 4, 512) && within(c.depth_grid_height, 4, 512) &&
          (c.disabled_factors & ~31U) == 0 && within(c.lost_after, 1, 1000000) &&
-         within(c.max_iterations, 1, 1000000);
+         within(c.max_iterations, 1, 1000000) && c.reserved == 0 &&
+         (c.window_submaps == 0 || within(c.window_submaps, 2, 64));
 }
 
 bool numbers_in_range(const unisim_config& c) {
@@ -99,6 +100,7 @@ unisim_status read_config(const unisim_config* from, SessionConfig* to) {
   to->scatter_gate = c.scatter_gate;
   to->lost_after = c.lost_after;
   to->max_iterations = c.max_iterations;
+  to->window_submaps = c.window_submaps;
   to->log = {c.log, c.log_user};
   return UNISIM_OK;
 }

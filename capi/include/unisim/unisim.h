@@ -132,6 +132,11 @@ typedef struct unisim_config {
   int32_t max_iterations; /**< cap of one unisim_optimize() whose budget says 0 (10) */
   unisim_log_fn log;      /**< NULL: silent */
   void* log_user;         /**< handed to log */
+  int32_t window_submaps; /**< newest windows whose keyframes are optimised, 2..64. Older keyframes
+                               keep the place in their submap that unisim_optimize() last gave them
+                               (call it after each window) and move with it; what joined two
+                               submaps becomes one edge. 0: all of them, the full batch (0) */
+  int32_t reserved;       /**< 0 */
 } unisim_config;
 
 /** Defaults for every field.
@@ -276,7 +281,8 @@ typedef struct unisim_submap_update {
 } unisim_submap_update;
 
 /** Replace the measurement of a submap: poses, depth ratios, quality. Beyond the gate the old one
- *  stays; unisim_get_info() counts that among the refused.
+ *  stays; unisim_get_info() counts that among the refused. A submap that has left the window of
+ *  unisim_config.window_submaps keeps its measurement, whatever comes.
  *  @return UNISIM_OK (refused for its quality too), UNISIM_ERR_INVALID_ARGUMENT (also: unknown
  *          submap, other count) */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_update_submap(unisim_session* session,
