@@ -10,7 +10,8 @@ readonly DEMO=build/demo
 readonly DEMO_OPTIONS="--scene room --frames 300 --size 640x480 --seed 1 --noise"
 readonly PACKAGES="cmake g++ ninja-build pkg-config python3 libeigen3-dev libopencv-dev
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev catch2"
-readonly CONTRIBUTOR_PACKAGES="ccache clang-format-19 clang-tidy-19 shellcheck"
+readonly CONTRIBUTOR_PACKAGES="ccache clang-format-19 clang-tidy-19 shellcheck doxygen
+  python3-numpy chromium"
 
 usage() {
   cat <<'TEXT'
@@ -19,7 +20,7 @@ usage: tools/bootstrap.sh VERB
   test     install what is missing, build, run every test
   build    install what is missing, build into build/release
   deps     install what is missing
-  dev      deps, and what a contributor needs: formatter, linter, compiler cache
+  dev      deps, and what every check needs: formatter, linter, doxygen, browser
   --help   this text
 TEXT
 }

@@ -6,8 +6,9 @@
 
 namespace unisim {
 
-// Doubles the vector unit of this build handles at once. Results do not depend on it: each element
-// is computed by the same operations in the same order.
+// Doubles the vector unit of this build handles at once. Each element is computed by the same
+// operations in the same order whatever the width; only builds that fuse multiply and add round
+// differently.
 #if defined(__AVX512F__)
 inline constexpr int kLane = 8;
 #elif defined(__AVX__)

@@ -11,9 +11,9 @@ void unisim_geometric_config_init(unisim_geometric_config* config, size_t struct
   unisim_geometric_config defaults{};
   defaults.struct_size = static_cast<uint32_t>(struct_size);
   defaults.max_tracks = 300;
-  defaults.max_keyframes = 256;
-  defaults.max_landmarks = 8000;
-  defaults.max_window_views = 1024;
+  defaults.max_keyframes = 180;
+  defaults.max_landmarks = 5000;
+  defaults.max_window_views = 512;
   defaults.window_size = 16;
   defaults.adjust_every = 10;
   defaults.adjust_latency = 4;

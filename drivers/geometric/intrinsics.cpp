@@ -41,6 +41,7 @@ void Intrinsics::give(bool early, BundleIntrinsics* out) const {
 }
 
 void Intrinsics::take(const BundleIntrinsics& in, const cv::Size& size) {
+  if (focal_known) return;
   const CameraModel model = in.model();
   if (!std::isfinite(model.focal_px) || !std::isfinite(model.k1)) return;
   camera.focal_px = std::clamp(model.focal_px, kMinFocal * size.width, kMaxFocal * size.width);

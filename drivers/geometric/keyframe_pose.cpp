@@ -114,8 +114,8 @@ FramePose KeyframePose::solve_old(const State& state, int32_t keyframe, const Ca
   out.pose = result.pose;
   out.inliers = result.inliers;
   out.used = count;
-  out.good = result.status == PoseStatus::kOk && result.inliers >= kMinOldInliers &&
-             result.inliers >= kMinOldShare * count;
+  out.good = result.status == PoseStatus::kOk && result.pose.t.allFinite() &&
+             result.inliers >= kMinOldInliers && result.inliers >= kMinOldShare * count;
   return out;
 }
 

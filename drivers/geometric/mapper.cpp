@@ -143,11 +143,12 @@ void Mapper::track(int32_t id) {
     lose(id);
     return;
   }
-  lost_in_row_ = 0;
   Keyframe& newest = state_.map.push_keyframe(id, state_.segment);
   newest.pose = found.pose;
   newest.posed = true;
   ++state_.posed;
+  if (lost_in_row_ > 0) recover(id - 1, found.pose);
+  lost_in_row_ = 0;
   observe_tracks(0);
   mark_outliers(&state_, id, 2 * kInlierGate);
   const size_t before = state_.tracks.size();
@@ -166,6 +167,17 @@ void Mapper::track(int32_t id) {
   note_motion(id);
   revive_.store_patches(state_, front_end_.current(), id, &patches_);
   adjust_whole(id);
+}
+
+void Mapper::recover(int32_t id, const CameraPose& near) {
+  if (!state_.map.holds(id)) return;
+  const FramePose found = poses_.solve_old(state_, id, near);
+  if (!found.good) return;
+  Keyframe& lost = state_.map.keyframe(id);
+  lost.pose = found.pose;
+  lost.posed = true;
+  ++state_.posed;
+  mark_outliers(&state_, id, 2 * kInlierGate);
 }
 
 void Mapper::adjust_whole(int32_t id) {

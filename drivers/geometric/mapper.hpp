@@ -50,6 +50,8 @@ class Mapper {
   void try_start(int32_t id);
   void track(int32_t id);
   void lose(int32_t id);
+  /// Poses a keyframe that was lost when it was new, after a later one has been found.
+  void recover(int32_t id, const CameraPose& near);
   void begin_segment(int32_t id);
   void grow(int32_t id);
   void adjust_window(int32_t id);

@@ -8,7 +8,7 @@
 
 namespace unisim::geometric {
 
-inline constexpr int kPatchSide = 40;  ///< pixels, even
+inline constexpr int kPatchSide = 32;  ///< pixels, even
 inline constexpr int kPatchesPerLandmark = 2;
 
 /// What a patch shows: landmark `generation` as seen in a keyframe.

@@ -3,6 +3,7 @@
 #include "drivers/geometric/predictions.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace unisim::geometric {
 
@@ -10,6 +11,29 @@ namespace {
 // A pair is measured before later keyframes have improved it, and its window will say the same
 // thing better: it is held loosely.
 constexpr double kPairSigma = 0.003;
+
+bool finite(const unisim_sim3& pose) {
+  double sum = 0;
+  for (const double value : pose.q) sum += value;
+  for (const double value : pose.t) sum += value;
+  return std::isfinite(sum);
+}
+
+const char* start_text(StartOutcome outcome) {
+  switch (outcome) {
+    case StartOutcome::kTooFewFeatures:
+      return "geometric: too few features to start; more texture or slower motion is needed";
+    case StartOutcome::kRotationOnly:
+      return "geometric: the camera only turns; it must also move sideways to start";
+    case StartOutcome::kNoGeometry:
+      return "geometric: not enough parallax to start yet; keep moving";
+    case StartOutcome::kNotMoving:
+    case StartOutcome::kStarted:
+      break;
+  }
+  return "geometric: not enough motion to start yet";
+}
+
 }  // namespace
 
 Predictions::Predictions(const unisim_geometric_config& config, const cv::Size& image)
@@ -47,6 +71,12 @@ int Predictions::pair(const Mapper& mapper, int32_t i, int32_t j, unisim_pair_pr
   const Keyframe& first = state.map.keyframe(i);
   const Keyframe& second = state.map.keyframe(j);
   if (!state.initialised && first.segment == state.segment && second.segment == state.segment) {
+    *why = start_text(mapper.start_outcome());
+    return UNISIM_PREDICTION_PENDING;
+  }
+  const bool may_recover = !second.posed && j == state.map.end_id() - 1 && first.posed;
+  if (may_recover && second.segment == state.segment && first.segment == state.segment) {
+    *why = "geometric: the newest keyframe has no pose; the next one may give it";
     return UNISIM_PREDICTION_PENDING;
   }
   if (!first.posed || !second.posed || first.segment != second.segment) {
@@ -54,6 +84,10 @@ int Predictions::pair(const Mapper& mapper, int32_t i, int32_t j, unisim_pair_pr
     return UNISIM_PREDICTION_REJECTED;
   }
   out->T_i_j = relative_sim3(first.pose, second.pose);
+  if (!finite(out->T_i_j)) {
+    *why = "geometric: the pair's pose is not finite";
+    return UNISIM_PREDICTION_REJECTED;
+  }
   out->depth_i = fill(state, i, 0, &pair_maps_);
   out->depth_j = fill(state, j, 1, &pair_maps_);
   out->focal_px = state.intrinsics.camera.focal_px;
@@ -63,7 +97,8 @@ int Predictions::pair(const Mapper& mapper, int32_t i, int32_t j, unisim_pair_pr
 
 void Predictions::choose_views(const State& state, const int32_t* ids, int32_t count) {
   const auto usable = [&](int32_t id) {
-    return state.map.holds(id) && state.map.keyframe(id).posed;
+    return state.map.holds(id) && state.map.keyframe(id).posed &&
+           finite(to_sim3(state.map.keyframe(id).pose));
   };
   int32_t segment = -1;
   int32_t most = 0;

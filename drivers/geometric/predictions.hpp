@@ -15,7 +15,7 @@ class Predictions {
  public:
   Predictions(const unisim_geometric_config& config, const cv::Size& image);
 
-  /// @param[out] why one line when the answer is REJECTED
+  /// @param[out] why one line when the answer is not OK
   int pair(const Mapper& mapper, int32_t i, int32_t j, unisim_pair_prediction* out,
            const char** why);
   int window(Mapper* mapper, const int32_t* ids, int32_t count, unisim_window_prediction* out,

@@ -113,7 +113,7 @@ int two_view(unisim_predictor* predictor, int32_t i, int32_t j, unisim_pair_pred
     if (!me->mapper) return UNISIM_PREDICTION_PENDING;
     const char* why = "";
     const int status = me->predictions->pair(*me->mapper, i, j, out, &why);
-    if (status == UNISIM_PREDICTION_REJECTED) me->message = why;
+    if (status != UNISIM_PREDICTION_OK) me->message = why;
     return status;
   });
 }
@@ -124,7 +124,7 @@ int multi_view(unisim_predictor* predictor, const int32_t* ids, int32_t count,
     if (!me->mapper) return UNISIM_PREDICTION_PENDING;
     const char* why = "";
     const int status = me->predictions->window(me->mapper.get(), ids, count, out, &why);
-    if (status == UNISIM_PREDICTION_REJECTED) me->message = why;
+    if (status != UNISIM_PREDICTION_OK) me->message = why;
     return status;
   });
 }

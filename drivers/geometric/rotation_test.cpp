@@ -13,7 +13,9 @@ namespace unisim::geometric {
 namespace {
 
 constexpr int kRounds = 5;
-constexpr double kFocalSteps[] = {0.4, 0.5, 0.63, 0.8, 1.0, 1.26, 1.6, 2.0};
+constexpr double kFocalSteps[] = {0.5, 0.63, 0.8, 1.0, 1.26, 1.6};
+constexpr double kStepRatio = 1.26;
+constexpr int kRefinements = 5;
 
 Eigen::Vector3d ray(const cv::Point2f& p, const cv::Size& size, double focal) {
   return Eigen::Vector3d((p.x - (size.width / 2.0 - 0.5)) / focal,
@@ -59,8 +61,20 @@ double rotation_residual_px(const std::vector<cv::Point2f>& from,
   if (from.empty()) return 0;
   if (focal_known) return residual_at(from, to, size, focal_px);
   double best = std::numeric_limits<double>::infinity();
-  for (const double step : kFocalSteps) {
-    best = std::min(best, residual_at(from, to, size, step * focal_px));
+  double best_focal = focal_px;
+  const auto try_focal = [&](double focal) {
+    const double residual = residual_at(from, to, size, focal);
+    if (residual >= best) return;
+    best = residual;
+    best_focal = focal;
+  };
+  for (const double step : kFocalSteps) try_focal(step * focal_px);
+  double ratio = kStepRatio;
+  for (int i = 0; i < kRefinements; ++i) {
+    ratio = std::sqrt(ratio);
+    const double middle = best_focal;
+    try_focal(middle * ratio);
+    try_focal(middle / ratio);
   }
   return best;
 }

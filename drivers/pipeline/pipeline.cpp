@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <limits>
 #include <new>
-#include <optional>
 #include <utility>
 
 #include "drivers/pipeline/frame_reader.hpp"
@@ -58,7 +57,7 @@ class Pipeline::Impl {
   HeapWatch heap_watch_;
   std::unique_ptr<char[]> arena_;
   unisim_session* session_ = nullptr;
-  std::optional<MapBuilder> builder_;
+  std::unique_ptr<MapBuilder> builder_;
   Messages messages_;
   KeyframeSelector selector_;
   Pacer pacer_;
@@ -86,10 +85,10 @@ Preparation Pipeline::Impl::prepare() {
   }
   // Windows start w - overlap keyframes apart; one shorter window may follow.
   const int32_t step = config_.window_size - config_.window_overlap;
-  const auto windows = static_cast<size_t>(config_.max_keyframes / step + 2);
-  builder_.emplace(MapBuilder::Parts{session_, predictor_, &result_.times, &messages_, &heap_watch_,
-                                     &listeners_},
-                   windows);
+  const int32_t windows = config_.max_keyframes / step + 2;
+  builder_ = std::make_unique<MapBuilder>(MapBuilder::Parts{session_, predictor_, &result_.times,
+                                                            &messages_, &heap_watch_, &listeners_},
+                                          static_cast<size_t>(windows));
   return {};
 }
 

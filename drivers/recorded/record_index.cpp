@@ -179,8 +179,8 @@ std::size_t RecordIndex::bytes() const {
   std::size_t bytes = (frames_.capacity() + keyframes_.capacity()) * sizeof(RecordedFrame) +
                       revisions_.capacity() * sizeof(RecordedRevision);
   for (const auto& [question, answers] : answers_) {
-    bytes += sizeof question + question.capacity() * sizeof question[0] + sizeof answers +
-             answers.capacity() * sizeof(RecordedAnswer);
+    bytes += sizeof(Question) + question.capacity() * sizeof(std::int64_t) +
+             sizeof(RecordedAnswers) + answers.capacity() * sizeof(RecordedAnswer);
   }
   return bytes;
 }

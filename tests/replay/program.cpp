@@ -22,7 +22,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Far beyond what any of these runs takes; a hang must not stop the test run.
-constexpr int kPatience_s = 120;
+constexpr int kPatienceSeconds = 120;
+
+void redirect(int stream, const std::string& path) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  if (file < 0 || dup2(file, stream) < 0) _exit(126);
+}
 
 [[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments,
                          const std::string& out, const std::string& err, long max_file_bytes) {
@@ -34,8 +39,8 @@ constexpr int kPatience_s = 120;
   std::vector<char*> argv = {const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
-  dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
-  dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+  redirect(STDOUT_FILENO, out);
+  redirect(STDERR_FILENO, err);
   execv(program.c_str(), argv.data());
   _exit(127);
 }
@@ -59,7 +64,7 @@ int wait_for(pid_t child, const Disturbance& disturbance, const std::string& out
       interrupted = true;
       kill(child, SIGINT);
     }
-    if (elapsed > std::chrono::seconds(kPatience_s)) kill(child, SIGKILL);
+    if (elapsed > std::chrono::seconds(kPatienceSeconds)) kill(child, SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

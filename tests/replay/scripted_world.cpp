@@ -12,7 +12,7 @@ namespace {
 
 constexpr int32_t kWidth = 16;
 constexpr int32_t kHeight = 12;
-constexpr int64_t kFrame_ns = 33333333;
+constexpr int64_t kFrameNs = 33333333;
 
 unisim_sim3 inverse(const unisim_sim3& T) {
   const unisim_sim3 turn = {{-T.q[0], -T.q[1], -T.q[2], T.q[3]}, {0, 0, 0}, 1.0};
@@ -65,7 +65,7 @@ int ScriptedSource::next(unisim_frame* frame) {
   const int64_t time = repeated_time.count(index) != 0 ? index - 1 : index;
   const int32_t height = resized.count(index) != 0 ? kHeight - 1 : kHeight;
   *frame = {
-      index, time * kFrame_ns, {pixels_.data(), kWidth, height, 2 * kWidth, UNISIM_PIXEL_GRAY8}};
+      index, time * kFrameNs, {pixels_.data(), kWidth, height, 2 * kWidth, UNISIM_PIXEL_GRAY8}};
   return UNISIM_FRAME_OK;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The page of results: everything on it, nothing from outside, no name taken as markup.
 #include <cmath>
+#include <cstdio>
 #include <limits>
-#include <regex>
 #include <string>
+#include <vector>
 
 #include "tests/support/catch.hpp"
 #include "tools/replay/report/report.hpp"
@@ -50,6 +51,35 @@ size_t count(const std::string& text, const std::string& part) {
   size_t found = 0;
   for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
   return found;
+}
+
+/// A coordinate or value that is no number, as printf writes it.
+bool has_broken_number(const std::string& page) {
+  for (const char* word : {"nan", "inf"}) {
+    for (const char* before : {" ", ",", "L", "M", "\"", "-"}) {
+      for (const char* after : {" ", ",", "L", "\"", "]"}) {
+        if (contains(page, std::string(before) + word + after)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+struct GridLine {
+  double x1, x2, y1, y2;
+};
+
+std::vector<GridLine> grid_lines(const std::string& svg) {
+  const std::string start = "<line class=\"grid\"";
+  std::vector<GridLine> lines;
+  for (size_t at = svg.find(start); at != std::string::npos; at = svg.find(start, at + 1)) {
+    GridLine line{};
+    const char* text = svg.c_str() + at + start.size();
+    REQUIRE(std::sscanf(text, " x1=\"%lf\" x2=\"%lf\" y1=\"%lf\" y2=\"%lf\"", &line.x1, &line.x2,
+                        &line.y1, &line.y2) == 4);
+    lines.push_back(line);
+  }
+  return lines;
 }
 
 }  // namespace
@@ -135,8 +165,7 @@ TEST_CASE("values that are no numbers leave gaps") {
   data.scale[10].value = std::numeric_limits<double>::infinity();
   data.estimate[10].x = std::numeric_limits<double>::quiet_NaN();
   const std::string page = report_html(data);
-  const std::regex bad("[ ,L\"]-?(nan|inf)[ ,\"]");
-  CHECK_FALSE(std::regex_search(page, bad));
+  CHECK_FALSE(has_broken_number(page));
 }
 
 TEST_CASE("one pose and a camera at rest make a page without broken numbers") {
@@ -146,25 +175,21 @@ TEST_CASE("one pose and a camera at rest make a page without broken numbers") {
   data.truth.clear();
   data.error.assign(1, {data.estimate[0].time_s, 0.0, 0});
   const std::string page = report_html(data);
-  CHECK_FALSE(std::regex_search(page, std::regex("[ ,L\"]-?(nan|inf)[ ,\"]")));
+  CHECK_FALSE(has_broken_number(page));
 }
 
 TEST_CASE("the view from above drops the axis with the least motion and keeps the aspect") {
   const ReportData data = full_data();
   CHECK(view_axis(data) == 1);
-  const std::string view = draw_top_view(data);
-  // Distance between two grid lines across and up; the last two, so that rounding does not matter.
-  const std::regex upright(R"re(<line class="grid" x1="([0-9.]+)" x2="\1")re");
-  const std::regex level(R"re(y1="([0-9.]+)" y2="\1")re");
-  const auto spacing = [&](const std::regex& pattern) {
-    std::vector<double> at;
-    for (std::sregex_iterator it(view.begin(), view.end(), pattern), end; it != end; ++it) {
-      at.push_back(std::stod((*it)[1]));
-    }
-    REQUIRE(at.size() >= 2);
-    return std::abs(at[1] - at[0]);
-  };
-  CHECK(spacing(upright) == Approx(spacing(level)).margin(0.02));
+  std::vector<double> across;
+  std::vector<double> up;
+  for (const GridLine& line : grid_lines(draw_top_view(data))) {
+    if (line.x1 == line.x2) across.push_back(line.x1);
+    if (line.y1 == line.y2) up.push_back(line.y1);
+  }
+  REQUIRE(across.size() >= 3);
+  REQUIRE(up.size() >= 3);
+  CHECK(std::abs(across[1] - across[0]) == Approx(std::abs(up[1] - up[0])).margin(0.02));
 }
 
 TEST_CASE("ground truth of a longer sequence is cut to the time of the run") {

@@ -3,9 +3,13 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <map>
+#include <string>
 
 #include "drivers/replay/text_file.hpp"
+#include "tools/bench/depth/depth_command.hpp"
 #include "tools/bench/solver/solver_command.hpp"
+#include "tools/bench/walk/walk_command.hpp"
 #include "tools/replay/failure.hpp"
 
 namespace {
@@ -29,6 +33,36 @@ void add_solver(CLI::App* app, SolverSettings* settings) {
   command->add_flag("--json", settings->json, "one line of JSON per run");
 }
 
+CLI::CheckedTransformer on_off() {
+  return CLI::CheckedTransformer(std::map<std::string, bool>{{"on", true}, {"off", false}});
+}
+
+void add_window(CLI::App* app, WalkSettings* settings, bool* json) {
+  using unisim::simulator::WorldKind;
+  CLI::App* command = app->add_subcommand("window", "A simulated walk through a session");
+  command->add_option("--keyframes", settings->keyframes, "length of the walk")
+      ->required()
+      ->check(CLI::Range(32, 65536));
+  command->add_option("--seed", settings->seed, "of world and predictions");
+  command->add_option("--world", settings->world, "walk, scan or room")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, WorldKind>{
+          {"walk", WorldKind::kWalk}, {"scan", WorldKind::kScan}, {"room", WorldKind::kRoom}}));
+  command->add_option("--loops", settings->loops, "on or off")->transform(on_off());
+  command->add_option("--submaps", settings->submaps, "on or off")->transform(on_off());
+  command->add_option("--false-loops", settings->false_loops, "share of loops that are none")
+      ->check(CLI::Range(0.0, 0.9));
+  command->add_option("--iterations", settings->iterations, "after each submap and loop")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--json", *json, "one line of JSON");
+}
+
+void add_depth(CLI::App* app, DepthSettings* settings) {
+  CLI::App* command = app->add_subcommand("depth", "Ratios of depth maps, by size");
+  command->add_option("--repeat", settings->repeat, "measurements per size, the median is shown")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--json", settings->json, "one line of JSON");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -36,8 +70,15 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   SolverSettings solver;
   add_solver(&app, &solver);
+  WalkSettings walk;
+  bool walk_json = false;
+  add_window(&app, &walk, &walk_json);
+  DepthSettings depth;
+  add_depth(&app, &depth);
   try {
     app.parse(argc, argv);
+    if (app.got_subcommand("window")) return walk_command(walk, walk_json);
+    if (app.got_subcommand("depth")) return depth_command(depth);
     return solver_command(solver);
   } catch (const CLI::CallForHelp&) {
     std::printf("%s", app.help().c_str());

@@ -201,7 +201,8 @@ Cloud::Rgb Cloud::colour_at(const View& view, double x, double y) {
   if (view.colours.empty()) return {128, 128, 128};
   const int column = std::min(static_cast<int>(x * view.columns), view.columns - 1);
   const int row = std::min(static_cast<int>(y * view.rows), view.rows - 1);
-  return view.colours[static_cast<size_t>(row * view.columns + column)];
+  const auto at = static_cast<size_t>(row) * static_cast<size_t>(view.columns);
+  return view.colours[at + static_cast<size_t>(column)];
 }
 
 void Cloud::on_revision(int32_t submap_id, const unisim_window_revision& revision) {

@@ -25,12 +25,14 @@ void note_call() {
 
 }  // namespace
 
-// The C library's own entry points, exported for this purpose.
 extern "C" {
+// The C library's own entry points, exported for this purpose: their names are its choice.
+// NOLINTBEGIN(bugprone-reserved-identifier)
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);
 void* __libc_realloc(void* block, size_t size);
 void* __libc_memalign(size_t alignment, size_t size);
+// NOLINTEND(bugprone-reserved-identifier)
 
 __attribute__((visibility("default"))) void* malloc(size_t size) {
   note_call();

@@ -14,7 +14,7 @@ namespace {
 using report::Point;
 using report::Sample;
 
-constexpr double kSecond_ns = 1e9;
+constexpr double kNsPerSecond = 1e9;
 
 template <typename... Values>
 std::string text(const char* format, Values... values) {
@@ -31,7 +31,7 @@ Point point_at(double time_s, const Eigen::Vector3d& p, int segment = 0) {
 Point placed(int64_t time_ns, const unisim_sim3& T, const std::optional<eval::Ate>& ate,
              int segment) {
   const Eigen::Vector3d p(T.t[0], T.t[1], T.t[2]);
-  const double time_s = static_cast<double>(time_ns) / kSecond_ns;
+  const double time_s = static_cast<double>(time_ns) / kNsPerSecond;
   return point_at(time_s, ate ? ate->T_truth_estimate * p : p, segment);
 }
 
@@ -39,8 +39,8 @@ Point placed(int64_t time_ns, const unisim_sim3& T, const std::optional<eval::At
 std::vector<Point> truth_points(const Run& run) {
   std::vector<Point> points;
   if (!run.scores.ate || run.data.trajectory.empty()) return points;
-  const double first = static_cast<double>(run.data.trajectory.front().timestamp_ns) / kSecond_ns;
-  const double last = static_cast<double>(run.data.trajectory.back().timestamp_ns) / kSecond_ns;
+  const double first = static_cast<double>(run.data.trajectory.front().timestamp_ns) / kNsPerSecond;
+  const double last = static_cast<double>(run.data.trajectory.back().timestamp_ns) / kNsPerSecond;
   for (const eval::Pose& pose : run.truth.poses) {
     if (pose.time_s >= first && pose.time_s <= last)
       points.push_back(point_at(pose.time_s, pose.t));

@@ -49,6 +49,7 @@ bool ProgressLine::due() {
 }
 
 void ProgressLine::on_progress(const pipeline::Progress& progress) {
+  last_ = progress;
   if (!due()) return;
   if (style_ == Style::kJson) return print_json(progress);
   print_line(progress);
@@ -89,20 +90,26 @@ void ProgressLine::print_json(const pipeline::Progress& progress) const {
                                        {"submaps", progress.submaps},
                                        {"state", state_name(progress.state)},
                                        {"seconds", seconds()}};
-  std::cout << line.dump() << std::endl;
+  std::cout << line.dump() << "\n" << std::flush;
 }
 
 void ProgressLine::on_message(const std::string& line) {
   messages_.push_back(line);
   if (style_ == Style::kJson) {
-    std::cout << nlohmann::ordered_json({{"type", "message"}, {"text", line}}).dump() << std::endl;
+    std::cout << nlohmann::ordered_json({{"type", "message"}, {"text", line}}).dump() << "\n"
+              << std::flush;
     return;
   }
-  finish();
+  end_line();
   std::cerr << line << "\n";
 }
 
 void ProgressLine::finish() {
+  if (line_open_) print_line(last_);
+  end_line();
+}
+
+void ProgressLine::end_line() {
   if (line_open_) std::cerr << "\n";
   line_open_ = false;
 }

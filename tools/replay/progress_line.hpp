@@ -30,7 +30,7 @@ class ProgressLine : public pipeline::Listener {
   /// The lines told so far; the pipeline bounds their number.
   const std::vector<std::string>& messages() const { return messages_; }
 
-  /// Ends the line of a terminal.
+  /// Shows the last state and ends the line of a terminal.
   void finish();
 
  private:
@@ -40,10 +40,12 @@ class ProgressLine : public pipeline::Listener {
   void print_line(const pipeline::Progress& progress) const;
   void print_json(const pipeline::Progress& progress) const;
   double seconds() const;
+  void end_line();
 
   Style style_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_ = start_;
+  pipeline::Progress last_;
   bool line_open_ = false;
   std::vector<std::string> messages_;
 };

@@ -130,7 +130,7 @@ void print_result(const Run& run, const OutputFolder& folder) {
   if (run.options.json) {
     nlohmann::ordered_json line = {{"type", "result"}, {"files", folder.written()}};
     line["summary"] = nlohmann::ordered_json::parse(summary_json(run));
-    std::cout << line.dump() << std::endl;
+    std::cout << line.dump() << "\n" << std::flush;
     return;
   }
   std::cout << summary_text(run, folder.written()) << std::flush;

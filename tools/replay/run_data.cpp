@@ -27,7 +27,7 @@ double covariance_trace(unisim_session* session, int32_t keyframe) {
   double covariance[49];
   if (unisim_get_covariance(session, keyframe, covariance) != UNISIM_OK) return -1.0;
   double trace = 0.0;
-  for (int k = 0; k < 7; ++k) trace += covariance[k * 8];
+  for (size_t k = 0; k < 49; k += 8) trace += covariance[k];
   return trace;
 }
 

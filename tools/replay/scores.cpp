@@ -10,7 +10,7 @@
 namespace unisim::replay {
 namespace {
 
-constexpr double kMaxTimeDifference_s = 0.02;
+constexpr double kMaxTimeDifferenceSeconds = 0.02;
 
 eval::Trajectory estimate(const std::string& name, const std::vector<unisim_stamped_pose>& poses) {
   return eval::make_trajectory(name, poses.data(), static_cast<int64_t>(poses.size()));
@@ -18,9 +18,12 @@ eval::Trajectory estimate(const std::string& name, const std::vector<unisim_stam
 
 /// Empty, or why no pose of the run has a partner in time.
 std::string clock_problem(const eval::Trajectory& truth, const eval::Trajectory& run) {
-  const double first = truth.poses.front().time_s, last = truth.poses.back().time_s;
-  const double from = run.poses.front().time_s, to = run.poses.back().time_s;
-  if (from <= last + kMaxTimeDifference_s && to >= first - kMaxTimeDifference_s) return {};
+  const double first = truth.poses.front().time_s;
+  const double last = truth.poses.back().time_s;
+  const double from = run.poses.front().time_s;
+  const double to = run.poses.back().time_s;
+  if (from <= last + kMaxTimeDifferenceSeconds && to >= first - kMaxTimeDifferenceSeconds)
+    return {};
   char line[160];
   std::snprintf(
       line, sizeof line,
@@ -54,11 +57,12 @@ Scores score(const eval::Trajectory& truth, const RunData& data) {
   if (!scores.problem.empty()) return scores;
   try {
     scores.ate = eval::absolute_trajectory_error(truth, final_poses, eval::Alignment::kSim3,
-                                                 kMaxTimeDifference_s);
+                                                 kMaxTimeDifferenceSeconds);
     scores.rpe = eval::relative_pose_error(truth, final_poses, eval::Alignment::kSim3,
-                                           kMaxTimeDifference_s, {});
-    scores.live = eval::absolute_trajectory_error(truth, estimate("trajectory_live.tum", data.live),
-                                                  eval::Alignment::kSim3, kMaxTimeDifference_s);
+                                           kMaxTimeDifferenceSeconds, {});
+    scores.live =
+        eval::absolute_trajectory_error(truth, estimate("trajectory_live.tum", data.live),
+                                        eval::Alignment::kSim3, kMaxTimeDifferenceSeconds);
   } catch (const eval::InputError& error) {
     scores.problem = error.what();
   }

@@ -180,7 +180,7 @@ std::string summary_text(const Run& run, const std::vector<std::string>& files) 
   const pipeline::LatencyHistogram& live = result.times.track_total;
   out += text("%.1f s, %.0f frames/s, live pose of a keyframe %.1f ms (p95 %.1f)\n", result.wall_s,
               frames_per_second(result), live.percentile_ms(0.5), live.percentile_ms(0.95));
-  for (size_t k = 0; k < files.size(); ++k) out += (k == 0 ? "wrote " : "      ") + files[k] + "\n";
+  for (const std::string& file : files) out += "wrote " + file + "\n";
   return out;
 }
 

@@ -103,10 +103,10 @@ void paint_window(Canvas* canvas, const Rect& rect, uint64_t seed) {
   const double pane_width = rect.width / columns;
   const double pane_height = rect.height / rows;
   for (int i = 0; i < columns * rows; ++i) {
-    const Rect pane =
-        Rect{rect.x + (i % columns) * pane_width,
-             rect.y + static_cast<double>(i / columns) * pane_height, pane_width, pane_height}
-            .inset(0.03);
+    const int row = i / columns;
+    const Rect pane = Rect{rect.x + (i % columns) * pane_width, rect.y + row * pane_height,
+                           pane_width, pane_height}
+                          .inset(0.03);
     const auto distance = [&pane](double x, double y) {
       return box_distance(x - pane.center_x(), y - pane.center_y(), pane.width / 2,
                           pane.height / 2);
@@ -139,9 +139,10 @@ void paint_door(Canvas* canvas, const Rect& rect, uint64_t seed) {
   grained(rect, 0.75f);
   grained(rect.inset(0.05), 1.1f);
   for (int i = 0; i < 4; ++i) {
+    const int row = i / 2;
     const Rect panel{rect.x + 0.12 + (i % 2) * (rect.width / 2 - 0.06),
-                     rect.y + 0.15 + static_cast<double>(i / 2) * rect.height * 0.5,
-                     rect.width / 2 - 0.18, rect.height * 0.5 - 0.28};
+                     rect.y + 0.15 + row * rect.height * 0.5, rect.width / 2 - 0.18,
+                     rect.height * 0.5 - 0.28};
     grained(panel, 0.7f);
     grained(panel.inset(0.025), 1.2f);
   }

@@ -40,7 +40,7 @@ void paint_shape(Canvas* canvas, const Rect& clip, double size, Random* random) 
   };
   const double reach = size * 1.5;
   canvas->paint({x0 - reach, y0 - reach, 2 * reach, 2 * reach}, distance,
-                [&](double, double) { return color; });
+                [&](double, double) -> const Color& { return color; });
 }
 
 }  // namespace

@@ -162,7 +162,8 @@ void Renderer::render_tile(const Tile& tile, const Candidates& candidates, Color
   }
   for (int row = tile.top; row < tile.bottom; ++row) {
     for (int column = tile.left; column < tile.right; ++column) {
-      const auto at = static_cast<size_t>(row * camera_.width + column);
+      const size_t at = static_cast<size_t>(row) * static_cast<size_t>(camera_.width) +
+                        static_cast<size_t>(column);
       const Hit hit = nearest(candidates, center_rays_[at]);
       const auto corner = static_cast<size_t>((row - tile.top) * columns + column - tile.left);
       const auto next_row = corner + static_cast<size_t>(columns);

@@ -164,6 +164,7 @@ Scene make_low_texture_room(uint64_t seed) {
   Scene scene(kTexel);
   add_lights(&scene);
   std::vector<Painter> walls;
+  walls.reserve(6);
   for (int i = 0; i < 6; ++i) {
     walls.push_back(i < 4 ? bare_wall(random.next()) : white_paint(random.next()));
   }

@@ -181,6 +181,7 @@ void write_sequence(const SequenceOptions& options, const std::function<void(int
   const auto cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const int count = std::min(options.threads > 0 ? options.threads : cores, options.frames);
   std::vector<std::thread> threads;
+  threads.reserve(static_cast<size_t>(count));
   for (int i = 0; i < count; ++i) {
     threads.emplace_back([&queue] { queue.work(); });
   }

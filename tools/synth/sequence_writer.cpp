@@ -104,9 +104,9 @@ void SequenceWriter::write_lists(const std::vector<StampedPose>& poses) const {
     const std::string stamp = format("%.6f", pose.time_s);
     const std::string image_line = stamp + " " + image_name(pose.time_s);
     const std::string depth_line = stamp + " " + depth_name(pose.time_s);
-    rgb += image_line + "\n";
-    depth += depth_line + "\n";
-    associations += image_line + " " + depth_line + "\n";
+    rgb.append(image_line).append("\n");
+    depth.append(depth_line).append("\n");
+    associations.append(image_line).append(" ").append(depth_line).append("\n");
     truth += stamp;
     const Eigen::Quaterniond q(pose.T_world_cam.linear());
     const Eigen::Vector3d t = pose.T_world_cam.translation();

@@ -29,7 +29,9 @@
 #include "unisim/version.h"
 
 #if defined(__GNUC__)
+/** Marks what the library exports. */
 #define UNISIM_API __attribute__((visibility("default")))
+/** Marks calls whose status must be looked at. */
 #define UNISIM_NODISCARD __attribute__((warn_unused_result))
 #else
 #define UNISIM_API
@@ -42,7 +44,7 @@ extern "C" {
 
 /** Result of a call. The numbers never move; 0 is success. */
 typedef int32_t unisim_status;
-#define UNISIM_OK 0
+#define UNISIM_OK 0                   /**< done */
 #define UNISIM_ERR_INVALID_ARGUMENT 1 /**< NULL, non-finite, unknown id: caller's mistake */
 #define UNISIM_ERR_CAPACITY 2      /**< a declared capacity or the caller's buffer is too small */
 #define UNISIM_ERR_OUT_OF_MEMORY 3 /**< the arena is smaller than unisim_arena_size() says */
@@ -86,15 +88,15 @@ typedef struct unisim_depth_map {
 #define UNISIM_PRESET_PAPER 1 /**< scale 1 in pose edges and weights 1 1 50 50 0.2, as printed */
 
 /** Factors that unisim_config.disabled_factors may switch off (for ablations). */
-#define UNISIM_FACTOR_TWO_VIEW 1u
-#define UNISIM_FACTOR_BRIDGE 2u
-#define UNISIM_FACTOR_SCALE_ANCHOR 4u
-#define UNISIM_FACTOR_TIE 8u
-#define UNISIM_FACTOR_SCALE 16u
+#define UNISIM_FACTOR_TWO_VIEW 1u     /**< neighbouring keyframes */
+#define UNISIM_FACTOR_BRIDGE 2u       /**< submap to each of its keyframes */
+#define UNISIM_FACTOR_SCALE_ANCHOR 4u /**< scale of a submap against each of its keyframes */
+#define UNISIM_FACTOR_TIE 8u          /**< two submaps over a shared keyframe */
+#define UNISIM_FACTOR_SCALE 16u       /**< scale of two submaps that share keyframes */
 
 /** Levels of the log callback. */
-#define UNISIM_LOG_INFO 1
-#define UNISIM_LOG_WARNING 2
+#define UNISIM_LOG_INFO 1    /**< worth knowing */
+#define UNISIM_LOG_WARNING 2 /**< something was refused */
 
 /** Optional log callback, called on the caller's thread; may not call the session.
  *  @param level UNISIM_LOG_*
@@ -104,7 +106,7 @@ typedef void (*unisim_log_fn)(int32_t level, const char* text, void* user);
 
 /** Everything a session is made with. Fill with unisim_config_init(), then edit. */
 typedef struct unisim_config {
-  uint32_t struct_size;
+  uint32_t struct_size;   /**< sizeof this struct, set by the caller */
   int32_t preset;         /**< UNISIM_PRESET_* */
   int32_t window_size;    /**< keyframes per submap w, 2..UNISIM_MAX_VIEWS (16) */
   int32_t window_overlap; /**< keyframes shared by neighbouring submaps, 0..window_size-1 (2) */
@@ -156,7 +158,7 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_arena_size(const unisim_config*
 /** One part of the arena, as unisim-arena prints it. */
 typedef struct unisim_arena_part {
   const char* name; /**< static text */
-  size_t bytes;
+  size_t bytes;     /**< alignment included */
 } unisim_arena_part;
 
 /** The bytes of unisim_arena_size() by part.
@@ -184,7 +186,9 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_session_create(unisim_session**
                                                                 const unisim_config* config,
                                                                 void* arena, size_t size);
 
-/** Back to the state after create; also the way out of UNISIM_ERR_INTERNAL. */
+/** Back to the state after create; also the way out of UNISIM_ERR_INTERNAL.
+ *  @param session live session
+ *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_session_reset(unisim_session* session);
 
 /** End a session; the arena is the caller's again. NULL is fine. */
@@ -194,12 +198,13 @@ UNISIM_API void unisim_session_destroy(unisim_session* session);
 
 /** A keyframe: its time only, images stay with the host. */
 typedef struct unisim_keyframe {
-  uint32_t struct_size;
-  int32_t reserved; /**< 0 */
-  int64_t timestamp_ns;
+  uint32_t struct_size; /**< sizeof this struct, set by the caller */
+  int32_t reserved;     /**< 0 */
+  int64_t timestamp_ns; /**< time of the image */
 } unisim_keyframe;
 
 /** Append a keyframe.
+ *  @param session live session
  *  @param[in]  keyframe timestamps must grow
  *  @param[out] id       0, 1, 2 ... in order of arrival
  *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT (NULL, time not after the last),
@@ -210,13 +215,13 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_keyframe(unisim_session* se
 
 /** Two-view prediction of consecutive keyframes i and j = i + 1, in a unit of its own. */
 typedef struct unisim_two_view {
-  uint32_t struct_size;
-  int32_t i;
-  int32_t j;
+  uint32_t struct_size;     /**< sizeof this struct, set by the caller */
+  int32_t i;                /**< earlier keyframe */
+  int32_t j;                /**< i + 1 */
   int32_t reserved;         /**< 0 */
   unisim_sim3 T_i_j;        /**< camera j to camera i, scale 1 */
   unisim_depth_map depth_i; /**< same unit as T_i_j */
-  unisim_depth_map depth_j;
+  unisim_depth_map depth_j; /**< same unit as T_i_j */
   double center_sigma; /**< predicted standard deviation of the camera centres over median depth;
                             0: not known, the scatter of the depth ratios stands in */
 } unisim_two_view;
@@ -226,6 +231,8 @@ typedef struct unisim_two_view {
  *  depth_i is compared with the depth keyframe i had in the pair before: that ratio carries scale
  *  along the chain. With fewer than 16 grid cells in common it is taken as 1 and the edge counts a
  *  hundredth.
+ *  @param session live session
+ *  @param[in] two_view see unisim_two_view
  *  @return UNISIM_OK (refused for its quality too: then unisim_get_info() counts it, the pose is
  *          held and the state is DEGRADED or LOST); UNISIM_ERR_INVALID_ARGUMENT on NULL,
  *          non-finite numbers, scale other than 1, ids not consecutive or already given;
@@ -235,7 +242,7 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_two_view(unisim_session* se
 
 /** Multi-view prediction: local poses and depth of a window of keyframes, in a unit of its own. */
 typedef struct unisim_submap {
-  uint32_t struct_size;
+  uint32_t struct_size;        /**< sizeof this struct, set by the caller */
   int32_t count;               /**< views, 2..window_size */
   const int32_t* keyframe_ids; /**< count ids, ascending; views the predictor lost are left out */
   const unisim_sim3* T_submap_kf; /**< count poses, scale 1, any gauge */
@@ -249,6 +256,8 @@ typedef struct unisim_submap {
  *  A view without 16 grid cells of depth in common with its keyframe's two-view depth takes no
  *  part; a keyframe whose pair was refused gets its pose from the submap. A submap over two
  *  segments joins them: the younger one moves as a whole.
+ *  @param session live session
+ *  @param[in] submap see unisim_submap
  *  @param[out] submap_id id for unisim_update_submap(); -1 when refused for its quality, or when
  *                        fewer than two views are left: unisim_get_info() counts it, the request is
  *                        answered
@@ -261,6 +270,8 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_submap(unisim_session* sess
 
 /** Add a loop submap: views around two distant places. Its edges are robust (Geman-McClure). A loop
  *  between two segments joins them and the state becomes UNISIM_STATE_RELOCALISED.
+ *  @param session live session
+ *  @param[in] submap see unisim_submap
  *  @param[out] submap_id as for unisim_add_submap()
  *  @return as unisim_add_submap() */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_loop(unisim_session* session,
@@ -270,8 +281,8 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_loop(unisim_session* sessio
 /** Better measurements of a submap that is in the graph (the predictor has re-adjusted the
  *  window). */
 typedef struct unisim_submap_update {
-  uint32_t struct_size;
-  int32_t submap_id;
+  uint32_t struct_size;           /**< sizeof this struct, set by the caller */
+  int32_t submap_id;              /**< as unisim_add_submap() gave it */
   int32_t count;                  /**< the count it was added with */
   int32_t reserved;               /**< 0 */
   const unisim_sim3* T_submap_kf; /**< count poses, scale 1, any gauge */
@@ -283,6 +294,8 @@ typedef struct unisim_submap_update {
 /** Replace the measurement of a submap: poses, depth ratios, quality. Beyond the gate the old one
  *  stays; unisim_get_info() counts that among the refused. A submap that has left the window of
  *  unisim_config.window_submaps keeps its measurement, whatever comes.
+ *  @param session live session
+ *  @param[in] update see unisim_submap_update
  *  @return UNISIM_OK (refused for its quality too), UNISIM_ERR_INVALID_ARGUMENT (also: unknown
  *          submap, other count) */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_update_submap(unisim_session* session,
@@ -290,22 +303,23 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_update_submap(unisim_session* s
 
 /* ------------------------------------------------------------------ what the session wants next */
 
-#define UNISIM_REQUEST_PAIR 1u
-#define UNISIM_REQUEST_WINDOW 2u
-#define UNISIM_REQUEST_LOOP 4u
+#define UNISIM_REQUEST_PAIR 1u   /**< two consecutive keyframes: unisim_add_two_view() */
+#define UNISIM_REQUEST_WINDOW 2u /**< a window: unisim_add_submap() */
+#define UNISIM_REQUEST_LOOP 4u   /**< two places that look alike; not offered yet */
 
 /** A prediction the session wants. */
 typedef struct unisim_request {
-  uint32_t struct_size;
-  uint32_t kind; /**< one of UNISIM_REQUEST_* */
-  int32_t count; /**< keyframes: 2 for a pair */
-  int32_t keyframe_ids[UNISIM_MAX_VIEWS];
+  uint32_t struct_size;                   /**< sizeof this struct, set by the caller */
+  uint32_t kind;                          /**< one of UNISIM_REQUEST_* */
+  int32_t count;                          /**< keyframes: 2 for a pair */
+  int32_t keyframe_ids[UNISIM_MAX_VIEWS]; /**< ascending */
 } unisim_request;
 
 /** The oldest open request of the given kinds. Pairs (0,1), (1,2) ... in order; a window once all
  *  its pairs are settled, with UNISIM_PRESET_PAPER the pair after it too. UNISIM_REQUEST_LOOP is
  *  kept for later: loops are the host's to find. Asking does not change it: it stays open until the
  *  prediction is added or unisim_reject_request() is called.
+ *  @param session live session
  *  @param      kinds   bits of UNISIM_REQUEST_*
  *  @param[out] request filled on success
  *  @return UNISIM_OK, UNISIM_ERR_NOT_READY when there is none, UNISIM_ERR_INVALID_ARGUMENT */
@@ -316,6 +330,7 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_next_request(unisim_session* se
 /** Say that the prediction cannot be made (lost track, rejected by the predictor). A pair: the pose
  *  of j is held and the state falls to DEGRADED, after lost_after in a row to LOST; a later pair
  *  that succeeds starts a new segment. A window: it is left out of the map.
+ *  @param session live session
  *  @param[in] request as unisim_next_request() gave it
  *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT when it is not an open request */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_reject_request(unisim_session* session,
@@ -323,6 +338,7 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_reject_request(unisim_session* 
 
 /** Ask for the last, shorter window too: call at the end of a recording. The next
  *  UNISIM_REQUEST_WINDOW covers the keyframes no full window has covered, and the overlap.
+ *  @param session live session
  *  @return UNISIM_OK, UNISIM_ERR_NOT_READY when fewer than two keyframes are left over */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_close_window(unisim_session* session);
 
@@ -330,7 +346,7 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_close_window(unisim_session* se
 
 /** Work allowed to one unisim_optimize(): iterations, never time. */
 typedef struct unisim_budget {
-  uint32_t struct_size;
+  uint32_t struct_size;   /**< sizeof this struct, set by the caller */
   int32_t max_iterations; /**< 0: unisim_config.max_iterations */
 } unisim_budget;
 
@@ -341,27 +357,28 @@ typedef struct unisim_budget {
 
 /** What an optimisation did. */
 typedef struct unisim_report {
-  uint32_t struct_size;
-  int32_t stop;          /**< UNISIM_STOP_* */
-  int32_t iterations;    /**< accepted and rejected steps */
-  int32_t keyframes;     /**< keyframe poses in the graph */
-  int32_t submaps;       /**< submap poses in the graph */
-  int32_t edges;         /**< factors */
-  int32_t factor_blocks; /**< 7x7 blocks of the Cholesky factor */
-  int32_t bad_node;      /**< keyframe id of a singular pivot, -1 if none; submap m is -2 - m */
-  double initial_cost;
-  double final_cost;
-  int32_t map_revision;  /**< grows with every optimisation that moved the past */
-  int32_t first_changed; /**< keyframes that moved by more than 1e-4, -1 if none */
-  int32_t last_changed;
-  int32_t reserved;
-  double jump_translation; /**< how the newest pose moved: length in the world's unit */
-  double jump_rotation_rad;
-  double jump_log_scale;
+  uint32_t struct_size;     /**< sizeof this struct, set by the caller */
+  int32_t stop;             /**< UNISIM_STOP_* */
+  int32_t iterations;       /**< accepted and rejected steps */
+  int32_t keyframes;        /**< keyframe poses in the graph */
+  int32_t submaps;          /**< submap poses in the graph */
+  int32_t edges;            /**< factors */
+  int32_t factor_blocks;    /**< 7x7 blocks of the Cholesky factor */
+  int32_t bad_node;         /**< keyframe id of a singular pivot, -1 if none; submap m is -2 - m */
+  double initial_cost;      /**< before the first step */
+  double final_cost;        /**< at the poses that stay */
+  int32_t map_revision;     /**< grows with every optimisation that moved the past */
+  int32_t first_changed;    /**< keyframes that moved by more than 1e-4, -1 if none */
+  int32_t last_changed;     /**< -1 if none */
+  int32_t reserved;         /**< 0 */
+  double jump_translation;  /**< how the newest pose moved: length in the world's unit */
+  double jump_rotation_rad; /**< angle */
+  double jump_log_scale;    /**< log of the factor */
 } unisim_report;
 
 /** Optimise the graph from the present poses (Levenberg-Marquardt). Never aborts: poses stay at the
  *  last accepted step. Each segment keeps its first keyframe where it is.
+ *  @param session live session
  *  @param[in]  budget NULL: the configured cap
  *  @param[out] report may be NULL
  *  @return UNISIM_OK, UNISIM_ERR_NOT_READY with nothing to optimise, UNISIM_ERR_NUMERICAL
@@ -374,17 +391,17 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_optimize(unisim_session* sessio
 /* ------------------------------------------------------------------ results out, by copy */
 
 /** Tracking state. */
-#define UNISIM_STATE_INIT 0
-#define UNISIM_STATE_TRACKING 1
-#define UNISIM_STATE_DEGRADED 2
-#define UNISIM_STATE_LOST 3
-#define UNISIM_STATE_RELOCALISED 4
+#define UNISIM_STATE_INIT 0        /**< no pose yet */
+#define UNISIM_STATE_TRACKING 1    /**< the newest pair was accepted */
+#define UNISIM_STATE_DEGRADED 2    /**< the newest pair was rejected, the pose is held */
+#define UNISIM_STATE_LOST 3        /**< lost_after pairs in a row were rejected */
+#define UNISIM_STATE_RELOCALISED 4 /**< a loop has joined the segments after a loss */
 
 /** Pose of a keyframe. */
 typedef struct unisim_pose {
-  uint32_t struct_size;
-  int32_t keyframe_id;
-  int64_t timestamp_ns;
+  uint32_t struct_size;   /**< sizeof this struct, set by the caller */
+  int32_t keyframe_id;    /**< as unisim_add_keyframe() gave it */
+  int64_t timestamp_ns;   /**< of the keyframe */
   unisim_sim3 T_world_kf; /**< scale: unit of the keyframe's two-view prediction to the world */
   int32_t state;          /**< UNISIM_STATE_* when the keyframe was taken */
   int32_t confidence;     /**< 0 held or unknown, 1 pair only, 2 in a submap, 3 in two or a loop */
@@ -393,11 +410,15 @@ typedef struct unisim_pose {
 } unisim_pose;
 
 /** Latest pose of one keyframe.
+ *  @param session live session
+ *  @param keyframe_id as unisim_add_keyframe() gave it
+ *  @param[out] pose filled on success
  *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_NOT_READY (no pose yet) */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_pose(const unisim_session* session,
                                                           int32_t keyframe_id, unisim_pose* pose);
 
 /** Latest poses of all keyframes that have one, ascending.
+ *  @param session live session
  *  @param[out] poses    caller's array; poses[0].struct_size set by the caller, it counts for all
  *  @param      capacity its length
  *  @param[out] count    poses written; the needed number on UNISIM_ERR_CAPACITY
@@ -410,6 +431,9 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_trajectory(const unisim_ses
  *  unisim_optimize(), times its variance of unit weight (2 cost / degrees of freedom). Zero for the
  *  first keyframe of a segment, which is held. Cost: one factorisation for the first keyframe asked
  *  for, one solve with seven right-hand sides for each.
+ *  @param session live session
+ *  @param keyframe_id as unisim_add_keyframe() gave it
+ *  @param[out] covariance 49 values, column-major
  *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_NOT_READY when the graph has
  *          changed since or the pose is held, UNISIM_ERR_NUMERICAL */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_covariance(unisim_session* session,
@@ -418,17 +442,20 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_covariance(unisim_session* 
 
 /** A submap as the graph holds it. */
 typedef struct unisim_submap_info {
-  uint32_t struct_size;
-  int32_t submap_id;
-  int32_t is_loop;
-  int32_t count;
-  int32_t keyframe_ids[UNISIM_MAX_VIEWS];
-  unisim_sim3 T_world_submap;
-  double center_sigma;
+  uint32_t struct_size;                   /**< sizeof this struct, set by the caller */
+  int32_t submap_id;                      /**< as unisim_add_submap() gave it */
+  int32_t is_loop;                        /**< 1: from unisim_add_loop() */
+  int32_t count;                          /**< views */
+  int32_t keyframe_ids[UNISIM_MAX_VIEWS]; /**< ascending */
+  unisim_sim3 T_world_submap;             /**< submap unit to the world */
+  double center_sigma;                    /**< as handed in last */
   double scatter; /**< median absolute deviation of the log depth ratios to the two-view depths */
 } unisim_submap_info;
 
 /** Latest pose and keyframes of a submap.
+ *  @param session live session
+ *  @param submap_id as unisim_add_submap() gave it
+ *  @param[out] info filled on success
  *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_submap(const unisim_session* session,
                                                             int32_t submap_id,
@@ -436,25 +463,28 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_submap(const unisim_session
 
 /** Where the session stands. */
 typedef struct unisim_session_info {
-  uint32_t struct_size;
+  uint32_t struct_size;    /**< sizeof this struct, set by the caller */
   int32_t state;           /**< UNISIM_STATE_* now */
   int32_t keyframes;       /**< added */
   int32_t posed_keyframes; /**< with a pose that a prediction supports */
   int32_t last_posed;      /**< newest keyframe with a pose, -1 if none: the live pose */
-  int32_t submaps;
-  int32_t submaps_refused;
-  int32_t loops;
-  int32_t loops_refused;
-  int32_t pairs_refused; /**< by the session's gates or by unisim_reject_request() */
-  int32_t segments;
-  int32_t lost_events;
-  int32_t map_revision;
-  int32_t reserved;
+  int32_t submaps;         /**< in the graph, loops not counted */
+  int32_t submaps_refused; /**< by the gates, updates included */
+  int32_t loops;           /**< loop submaps in the graph */
+  int32_t loops_refused;   /**< by the gates, updates included */
+  int32_t pairs_refused;   /**< by the session's gates or by unisim_reject_request() */
+  int32_t segments;        /**< without a common frame */
+  int32_t lost_events;     /**< times the state fell to LOST */
+  int32_t map_revision;    /**< see unisim_report */
+  int32_t reserved;        /**< 0 */
   size_t arena_bytes;      /**< handed over */
   size_t arena_peak_bytes; /**< most ever in use */
 } unisim_session_info;
 
-/** Read the counters. @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_ABI_MISMATCH */
+/** Read the counters.
+ *  @param session live session
+ *  @param[out] info filled on success
+ *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_ABI_MISMATCH */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_info(const unisim_session* session,
                                                           unisim_session_info* info);
 

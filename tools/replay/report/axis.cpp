@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace unisim::report {
 
@@ -18,10 +19,12 @@ double tick_step(double low, double high, int wanted) {
 
 std::vector<double> ticks(double low, double high, double step) {
   std::vector<double> values;
-  const auto first = std::ceil(low / step - 1e-9);
-  const auto last = std::floor(high / step + 1e-9);
-  constexpr double kMost = 100.0;
-  for (double k = first; k <= std::min(last, first + kMost); k += 1.0) values.push_back(k * step);
+  const double first = std::ceil(low / step - 1e-9);
+  const double last = std::floor(high / step + 1e-9);
+  constexpr int kMost = 100;
+  const int count = static_cast<int>(std::clamp(last - first + 1.0, 0.0, double{kMost}));
+  values.reserve(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) values.push_back((first + k) * step);
   return values;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tools/replay/report/axis.hpp"
+#include "tools/replay/report/svg.hpp"
 #include "tools/replay/report/text.hpp"
 
 namespace unisim::report {
@@ -18,17 +19,6 @@ constexpr double kTop = 12.0;
 constexpr double kBottom = 38.0;      // with time labels
 constexpr double kBottomBare = 10.0;  // without
 constexpr std::size_t kMostSamples = 1200;
-
-std::string text_at(double x, double y, const char* anchor, const std::string& text,
-                    const char* style = "tick") {
-  return "<text class=\"" + std::string(style) + "\" x=\"" + coordinate(x) + "\" y=\"" +
-         coordinate(y) + "\" text-anchor=\"" + anchor + "\">" + escape(text) + "</text>";
-}
-
-std::string line(double x1, double y1, double x2, double y2, const char* style) {
-  return "<line class=\"" + std::string(style) + "\" x1=\"" + coordinate(x1) + "\" y1=\"" +
-         coordinate(y1) + "\" x2=\"" + coordinate(x2) + "\" y2=\"" + coordinate(y2) + "\"/>";
-}
 
 Axis value_axis(const Chart& chart, double bottom) {
   Range range;
@@ -47,8 +37,8 @@ std::string draw_value_ticks(const Axis& values, double right) {
   std::string svg;
   for (const double value : ticks(values.low, values.high, step)) {
     const double y = values.pixel(value);
-    svg += line(kLeft, y, right, y, "grid");
-    svg += text_at(kLeft - 6, y + 4, "end", tick_label(value, step));
+    svg += svg_line(kLeft, y, right, y, "grid");
+    svg += svg_text(kLeft - 6, y + 4, "end", tick_label(value, step), "tick");
   }
   return svg;
 }
@@ -58,11 +48,12 @@ std::string draw_time_ticks(const Chart& chart, const Axis& times, double bottom
   std::string svg;
   for (const double time : ticks(times.low, times.high, step)) {
     const double x = times.pixel(time);
-    svg += line(x, kTop, x, bottom, "grid");
-    if (chart.time_labels) svg += text_at(x, bottom + 16, "middle", tick_label(time, step));
+    svg += svg_line(x, kTop, x, bottom, "grid");
+    if (chart.time_labels)
+      svg += svg_text(x, bottom + 16, "middle", tick_label(time, step), "tick");
   }
   if (chart.time_labels) {
-    svg += text_at((times.from + times.to) / 2, bottom + 33, "middle", "time (s)", "name");
+    svg += svg_text((times.from + times.to) / 2, bottom + 33, "middle", "time (s)", "name");
   }
   return svg;
 }
@@ -139,15 +130,15 @@ std::string draw_chart(const Chart& chart) {
       coordinate(bottom) + "\" data-length=\"" + number(length) + "\" data-series=\"" +
       escape(pointer_data(series, chart.start_s)) + "\"><title>" + escape(chart.title) + "</title>";
   svg += draw_value_ticks(values, right) + draw_time_ticks(chart, times, bottom);
-  svg += line(kLeft, bottom, right, bottom, "frame") + line(kLeft, kTop, kLeft, bottom, "frame");
+  svg += svg_line(kLeft, bottom, right, bottom, "frame") +
+         svg_line(kLeft, kTop, kLeft, bottom, "frame");
   const double middle = (kTop + bottom) / 2;
-  svg += "<text class=\"name\" text-anchor=\"middle\" transform=\"translate(13 " +
-         coordinate(middle) + ") rotate(-90)\">" + escape(chart.value_name) + "</text>";
+  svg += svg_upright_text(13, middle, chart.value_name);
   for (const Series& each : series) svg += draw_series(each, times, values, chart.start_s);
   if (chart.reference.shown) {
     const double y = values.pixel(chart.reference.value);
-    svg += line(kLeft, y, right, y, "reference");
-    svg += text_at(right - 4, y - 5, "end", chart.reference.label, "reference-label");
+    svg += svg_line(kLeft, y, right, y, "reference");
+    svg += svg_text(right - 4, y - 5, "end", chart.reference.label, "reference-label");
   }
   return svg + "</svg>";
 }

@@ -32,9 +32,9 @@ Span span_of(const ReportData& data) {
 /// The truth of the time of the run only: it may be that of a longer sequence.
 ReportData clipped(const ReportData& data, const Span& span) {
   ReportData out = data;
-  constexpr double kSlack_s = 0.01;
+  constexpr double kSlackSeconds = 0.01;
   const auto outside = [&](const Point& point) {
-    return point.time_s < span.start_s - kSlack_s || point.time_s > span.end_s + kSlack_s;
+    return point.time_s < span.start_s - kSlackSeconds || point.time_s > span.end_s + kSlackSeconds;
   };
   out.truth.erase(std::remove_if(out.truth.begin(), out.truth.end(), outside), out.truth.end());
   return out;

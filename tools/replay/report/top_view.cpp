@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tools/replay/report/axis.hpp"
+#include "tools/replay/report/svg.hpp"
 #include "tools/replay/report/text.hpp"
 
 namespace unisim::report {
@@ -85,27 +86,21 @@ std::string draw_grid(const Frame& frame, const Plane& plane, const std::string&
   const double step = tick_step(frame.across.low, frame.across.high, 6);
   std::string svg;
   for (const double value : ticks(frame.across.low, frame.across.high, step)) {
-    const std::string x = coordinate(frame.across.pixel(value));
-    svg += "<line class=\"grid\" x1=\"" + x + "\" x2=\"" + x + "\" y1=\"" + coordinate(kTop) +
-           "\" y2=\"" + coordinate(frame.up.from) +
-           "\"/><text class=\"tick\" text-anchor=\"middle\" x=\"" + x + "\" y=\"" +
-           coordinate(frame.up.from + 16) + "\">" + tick_label(value, step) + "</text>";
+    const double x = frame.across.pixel(value);
+    svg += svg_line(x, frame.up.to, x, frame.up.from, "grid");
+    svg += svg_text(x, frame.up.from + 16, "middle", tick_label(value, step), "tick");
   }
   for (const double value : ticks(frame.up.low, frame.up.high, step)) {
     const double y = frame.up.pixel(value);
-    svg += "<line class=\"grid\" x1=\"" + coordinate(kLeft) + "\" x2=\"" +
-           coordinate(frame.across.to) + "\" y1=\"" + coordinate(y) + "\" y2=\"" + coordinate(y) +
-           "\"/><text class=\"tick\" text-anchor=\"end\" x=\"" + coordinate(kLeft - 6) + "\" y=\"" +
-           coordinate(y + 4) + "\">" + tick_label(value, step) + "</text>";
+    svg += svg_line(frame.across.from, y, frame.across.to, y, "grid");
+    svg += svg_text(frame.across.from - 6, y + 4, "end", tick_label(value, step), "tick");
   }
   constexpr std::array<const char*, 3> kNames = {"x", "y", "z"};
-  const std::string tail = " (" + escape(unit) + ")</text>";
-  svg += "<text class=\"name\" text-anchor=\"middle\" x=\"" +
-         coordinate((frame.across.from + frame.across.to) / 2) + "\" y=\"" +
-         coordinate(kHeight - 4) + "\">" + kNames[static_cast<std::size_t>(plane.across)] + tail;
-  svg += "<text class=\"name\" text-anchor=\"middle\" transform=\"translate(13 " +
-         coordinate((frame.up.from + frame.up.to) / 2) + ") rotate(-90)\">" +
-         kNames[static_cast<std::size_t>(plane.up)] + tail;
+  const std::string across = kNames[static_cast<std::size_t>(plane.across)];
+  const std::string up = kNames[static_cast<std::size_t>(plane.up)];
+  svg += svg_text((frame.across.from + frame.across.to) / 2, kHeight - 4, "middle",
+                  across + " (" + unit + ")", "name");
+  svg += svg_upright_text(13, (frame.up.from + frame.up.to) / 2, up + " (" + unit + ")");
   return svg;
 }
 
@@ -141,10 +136,10 @@ std::string draw_ends(const std::vector<Point>& points, const Frame& frame, cons
     const double y = frame.up.pixel(along(point, plane.up));
     if (!std::isfinite(x) || !std::isfinite(y)) return std::string();
     const bool at_right = x > kWidth - 60.0;
-    return "<circle class=\"" + std::string(style) + "\" cx=\"" + coordinate(x) + "\" cy=\"" +
-           coordinate(y) + "\" r=\"4.5\"/><text class=\"end-label\" text-anchor=\"" +
-           (at_right ? "end" : "start") + "\" x=\"" + coordinate(at_right ? x - 9 : x + 9) +
-           "\" y=\"" + coordinate(y + 4) + "\">" + name + "</text>";
+    std::string svg = "<circle class=\"" + std::string(style) + "\" r=\"4.5\" cx=\"";
+    svg += coordinate(x) + "\" cy=\"" + coordinate(y) + "\"/>";
+    return svg +
+           svg_text(at_right ? x - 9 : x + 9, y + 4, at_right ? "end" : "start", name, "end-label");
   };
   return dot(points.front(), "start", "start") + dot(points.back(), "end", "end");
 }

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// unisim-bench as a program: result lines, exit codes, one line on stderr.
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/catch.hpp"
+#include "tests/support/temp_folder.hpp"
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kGraph =
+    "node 0 T 1 0 0 0 1 0 0 0 1\n"
+    "node 1 T 0 0 0 0 1 1 0.5 0 1\n"
+    "node 2 T 0 0 0 0 1 2 0.5 0 1\n"
+    "edge v2v 0 1 1 0 0 0 0 1 1 0 0 1\n"
+    "edge v2v 1 2 1 0 0 0 0 1 1 0 0 1\n"
+    "edge v2v 0 2 1 0 0 0 0 1 2.1 0 0 1\n";
+
+class Program {
+ public:
+  Program() { folder_.write("graph.usg", kGraph); }
+
+  int run(const std::string& arguments) {
+    const std::string command = "cd '" + folder_.path() + "' && '" UNISIM_BENCH_PROGRAM "' " +
+                                arguments + " > out.txt 2> err.txt";
+    const int status = std::system(command.c_str());
+    out = content("out.txt");
+    err = content("err.txt");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  void require_failure(const std::string& arguments, int code, const std::string& part) {
+    INFO(arguments);
+    REQUIRE(run(arguments) == code);
+    INFO(err);
+    REQUIRE(std::count(err.begin(), err.end(), '\n') == 1);
+    REQUIRE(err.find(part) != std::string::npos);
+  }
+
+  const TempFolder& folder() const { return folder_; }
+  std::string out, err;
+
+ private:
+  std::string content(const std::string& name) const {
+    std::ifstream file(folder_ / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  TempFolder folder_;
+};
+
+void require_times(const Json& times) {
+  CHECK(times.at("p50").get<double>() <= times.at("p95").get<double>());
+  CHECK(times.at("p95").get<double>() <= times.at("max").get<double>());
+}
+
+}  // namespace
+
+TEST_CASE("solver prints one result line per run") {
+  Program program;
+  REQUIRE(program.run("solver graph.usg --repeat 3 --json") == 0);
+  std::istringstream lines(program.out);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const Json result = Json::parse(line);
+    for (const char* key : {"config", "iterations", "setup_ms", "solve_ms", "rss_before_kb",
+                            "rss_peak_kb", "alloc_bytes"}) {
+      INFO(key);
+      CHECK(result.contains(key));
+    }
+    CHECK(result.at("solver") == "unisim");
+    CHECK(result.at("graph") == "graph.usg");
+    CHECK(result.at("nodes") == 3);
+    CHECK(result.at("edges") == 3);
+    CHECK(result.at("allocs") == 0);
+    // Residuals (0, 0.5), (0, 0) and (-0.1, 0.5): (0.25 + 0 + 0.26) / 2.
+    CHECK(result.at("cost0").get<double>() == Approx(0.255));
+    // The chain is 0.1 short: shared evenly by three edges that is 0.01 / 6, and scale may help.
+    CHECK(result.at("cost").get<double>() < 0.01 / 6.0);
+    CHECK(result.at("cost").get<double>() > 0.0);
+    CHECK(result.at("trace").front().size() == 2);
+    for (const char* phase : {"linearise", "assemble", "order", "analyse", "factor", "solve"}) {
+      CHECK(result.at("split_ms").contains(phase));
+    }
+  }
+  CHECK(count == 3);
+}
+
+TEST_CASE("solver prints a table without --json") {
+  Program program;
+  REQUIRE(program.run("solver graph.usg") == 0);
+  CHECK(program.out.find("solve_ms") != std::string::npos);
+  CHECK(program.out.find('{') == std::string::npos);
+}
+
+TEST_CASE("window prints memory, times and errors") {
+  Program program;
+  REQUIRE(program.run("window --keyframes 60 --world scan --json") == 0);
+  const Json result = Json::parse(program.out);
+  CHECK(result.at("keyframes") == 60);
+  CHECK(result.at("arena_bytes").get<int64_t>() > 0);
+  CHECK(result.at("heap_calls_after_init") == 0);
+  require_times(result.at("update_ms"));
+  require_times(result.at("loop_update_ms"));
+  CHECK(result.at("ate_m").get<double>() > 0.0);
+  CHECK(result.at("ate_over_batch") == 1.0);
+}
+
+TEST_CASE("depth prints the time of a ratio by size") {
+  Program program;
+  REQUIRE(program.run("depth --repeat 1 --json") == 0);
+  const Json sizes = Json::parse(program.out).at("depth_ratio");
+  REQUIRE(sizes.size() > 3);
+  CHECK(sizes.front().at("ms").get<double>() < sizes.back().at("ms").get<double>());
+}
+
+TEST_CASE("unisim-bench says in one line what is wrong") {
+  Program program;
+  program.require_failure("", 2, "subcommand");
+  program.require_failure("solver", 2, "graph");
+  program.require_failure("solver graph.usg --repeat 0", 2, "--repeat");
+  program.require_failure("solver missing.usg", 3, "missing.usg");
+  program.require_failure("window", 2, "--keyframes");
+  program.require_failure("window --keyframes 10", 2, "--keyframes");
+  program.require_failure("window --keyframes 60 --loops maybe", 2, "--loops");
+  program.folder().write("loose.usg",
+                         "node 0 T 0 0 0 0 1 0 0 0 1\nnode 1 T 1 0 0 0 1 0 0 0 1\n"
+                         "node 2 T 0 0 0 0 1 0 0 0 1\nedge v2v 0 1 1 0 0 0 0 1 1 0 0 1\n");
+  program.require_failure("solver loose.usg", 4, "not positive definite");
+}

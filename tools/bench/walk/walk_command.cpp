@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// unisim-bench window: a long walk through a session.
+#include "tools/bench/walk/walk_command.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "tools/replay/failure.hpp"
+#include "tools/replay/heap_counter.hpp"
+
+namespace unisim::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr size_t kTail = 100;  // updates at the end of the walk that are shown apart
+
+double quantile(const std::vector<double>& sorted, double share) {
+  const double place = share * static_cast<double>(sorted.size());
+  const size_t at = static_cast<size_t>(std::max(0.0, std::ceil(place) - 1.0));
+  return std::round(sorted[std::min(at, sorted.size() - 1)] * 1e3) / 1e3;
+}
+
+Json times_json(std::vector<double> times) {
+  if (times.empty()) return {{"n", 0}, {"p50", 0}, {"p95", 0}, {"max", 0}};
+  std::sort(times.begin(), times.end());
+  return {{"n", times.size()},
+          {"p50", quantile(times, 0.5)},
+          {"p95", quantile(times, 0.95)},
+          {"max", quantile(times, 1.0)}};
+}
+
+std::vector<double> tail(const std::vector<double>& times) {
+  const size_t count = std::min(kTail, times.size());
+  return {times.end() - static_cast<std::ptrdiff_t>(count), times.end()};
+}
+
+Json result_json(const WalkSettings& settings, const WalkResult& result) {
+  return {{"keyframes", result.keyframes},
+          {"seed", settings.seed},
+          {"submaps", result.submaps},
+          {"submaps_refused", result.submaps_refused},
+          {"loops", result.loops},
+          {"loops_refused", result.loops_refused},
+          {"arena_bytes", result.arena_bytes},
+          {"heap_calls_after_init", result.heap_calls},
+          {"update_ms", times_json(result.update_ms)},
+          {"update_tail_ms", times_json(tail(result.update_ms))},
+          {"loop_update_ms", times_json(result.loop_update_ms)},
+          {"loop_update_tail_ms", times_json(tail(result.loop_update_ms))},
+          {"live_ate_m", result.live_ate_m},
+          {"ate_m", result.ate_m},
+          {"ate_over_batch", 1.0}};
+}
+
+}  // namespace
+
+int walk_command(const WalkSettings& settings, bool json) {
+  const Json result = result_json(settings, run_walk(settings, replay::heap_counter()));
+  if (json) {
+    std::printf("%s\n", result.dump().c_str());
+    return replay::kExitDone;
+  }
+  for (const auto& [key, value] : result.items()) {
+    std::printf("%-22s %s\n", key.c_str(), value.dump().c_str());
+  }
+  return replay::kExitDone;
+}
+
+}  // namespace unisim::bench

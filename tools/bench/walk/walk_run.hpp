@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// A simulated walk through a session: every prediction as it is asked for, one short optimisation
+// for each submap and loop.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "drivers/pipeline/heap_watch.hpp"
+#include "tools/bench/simulator/loops.hpp"
+#include "tools/bench/simulator/world.hpp"
+
+namespace unisim::bench {
+
+struct WalkSettings {
+  simulator::WorldKind world = simulator::WorldKind::kWalk;
+  int32_t keyframes = 1000;
+  uint64_t seed = 1;
+  bool submaps = true;
+  bool loops = true;
+  double false_loops = 0.0;  ///< share of all loops, below 1
+  int32_t iterations = 2;    ///< of the optimisation after a submap or loop
+};
+
+/// Times are process CPU time [ms] of the call that takes the prediction and the optimisation.
+struct WalkResult {
+  int32_t keyframes = 0;
+  int32_t submaps = 0;
+  int32_t submaps_refused = 0;
+  int32_t loops = 0;
+  int32_t loops_refused = 0;
+  size_t arena_bytes = 0;
+  int64_t heap_calls = 0;  ///< inside the library, after the session was made
+  std::vector<double> update_ms;
+  std::vector<double> loop_update_ms;
+  double live_ate_m = 0.0;  ///< of the poses as they were first given out
+  double ate_m = 0.0;       ///< RMSE of positions after Sim(3) alignment
+};
+
+/// @throws replay::Failure when the session refuses a call
+WalkResult run_walk(const WalkSettings& settings, const pipeline::HeapWatch& heap);
+
+}  // namespace unisim::bench

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// A session with its arena that takes simulated predictions.
+#include "tools/bench/walk/walk_session.hpp"
+
+#include <Eigen/Geometry>
+#include <string>
+
+#include "tools/replay/failure.hpp"
+
+namespace unisim::bench {
+namespace {
+
+constexpr int64_t kKeyframePeriodNs = 166666667;
+
+// Small enough for the full weight: all simulated predictions are equally good.
+constexpr double kCenterSigma = 0.0005;
+
+unisim_sim3 to_c(const simulator::RigidPose& T) {
+  const Eigen::Quaterniond q(T.R);
+  return {{q.x(), q.y(), q.z(), q.w()}, {T.t.x(), T.t.y(), T.t.z()}, 1.0};
+}
+
+unisim_depth_map to_c(const simulator::DepthMap& depth) {
+  return {depth.data(), nullptr, simulator::kDepthWidth, simulator::kDepthHeight};
+}
+
+}  // namespace
+
+WalkSession::WalkSession(const unisim_config& config, const pipeline::HeapWatch& heap)
+    : heap_(heap) {
+  size_t bytes = 0;
+  expect_ok(unisim_arena_size(&config, &bytes), "unisim_arena_size");
+  arena_.resize(bytes);
+  expect_ok(unisim_session_create(&session_, &config, arena_.data(), arena_.size()),
+            "unisim_session_create");
+  poses_.reserve(UNISIM_MAX_VIEWS);
+  maps_.reserve(UNISIM_MAX_VIEWS);
+}
+
+WalkSession::~WalkSession() { unisim_session_destroy(session_); }
+
+void WalkSession::expect_ok(unisim_status status, const char* call) const {
+  if (status == UNISIM_OK) return;
+  throw replay::Failure(replay::kExitLimit, std::string(call) + ": " +
+                                                unisim_status_string(status) + " at keyframe " +
+                                                std::to_string(keyframes_ - 1));
+}
+
+void WalkSession::add_keyframe() {
+  const unisim_keyframe keyframe{sizeof(unisim_keyframe), 0, kKeyframePeriodNs * keyframes_};
+  int32_t id = -1;
+  const pipeline::InsideLibrary inside(heap_);
+  expect_ok(unisim_add_keyframe(session_, &keyframe, &id), "unisim_add_keyframe");
+  ++keyframes_;
+}
+
+void WalkSession::add_pair(const simulator::Prediction& pair) {
+  unisim_two_view two_view{};
+  two_view.struct_size = sizeof two_view;
+  two_view.i = pair.keyframes[0];
+  two_view.j = pair.keyframes[1];
+  two_view.T_i_j = to_c(pair.T_local_kf[1]);
+  two_view.depth_i = to_c(pair.depth[0]);
+  two_view.depth_j = to_c(pair.depth[1]);
+  two_view.center_sigma = kCenterSigma;
+  const pipeline::InsideLibrary inside(heap_);
+  expect_ok(unisim_add_two_view(session_, &two_view), "unisim_add_two_view");
+}
+
+bool WalkSession::next_window(int32_t* first, int32_t* count) {
+  unisim_request request{};
+  request.struct_size = sizeof request;
+  const pipeline::InsideLibrary inside(heap_);
+  if (unisim_next_request(session_, UNISIM_REQUEST_WINDOW, &request) != UNISIM_OK) return false;
+  *first = request.keyframe_ids[0];
+  *count = request.count;
+  return true;
+}
+
+bool WalkSession::close_window() { return unisim_close_window(session_) == UNISIM_OK; }
+
+unisim_submap WalkSession::describe(const simulator::Prediction& prediction) {
+  poses_.clear();
+  maps_.clear();
+  for (const simulator::RigidPose& T : prediction.T_local_kf) poses_.push_back(to_c(T));
+  for (const simulator::DepthMap& depth : prediction.depth) maps_.push_back(to_c(depth));
+  unisim_submap submap{};
+  submap.struct_size = sizeof submap;
+  submap.count = static_cast<int32_t>(prediction.keyframes.size());
+  submap.keyframe_ids = prediction.keyframes.data();
+  submap.T_submap_kf = poses_.data();
+  submap.depth = maps_.data();
+  submap.center_sigma = kCenterSigma;
+  return submap;
+}
+
+void WalkSession::add_window(const simulator::Prediction& window) {
+  const unisim_submap submap = describe(window);
+  int32_t id = -1;
+  const pipeline::InsideLibrary inside(heap_);
+  expect_ok(unisim_add_submap(session_, &submap, &id), "unisim_add_submap");
+}
+
+void WalkSession::add_loop(const simulator::Prediction& loop) {
+  const unisim_submap submap = describe(loop);
+  int32_t id = -1;
+  const pipeline::InsideLibrary inside(heap_);
+  expect_ok(unisim_add_loop(session_, &submap, &id), "unisim_add_loop");
+}
+
+void WalkSession::optimize(int32_t iterations) {
+  const unisim_budget budget{sizeof(unisim_budget), iterations};
+  const pipeline::InsideLibrary inside(heap_);
+  expect_ok(unisim_optimize(session_, &budget, nullptr), "unisim_optimize");
+}
+
+Eigen::Vector3d WalkSession::position(int32_t keyframe) const {
+  unisim_pose pose{};
+  pose.struct_size = sizeof pose;
+  expect_ok(unisim_get_pose(session_, keyframe, &pose), "unisim_get_pose");
+  return Eigen::Map<const Eigen::Vector3d>(pose.T_world_kf.t);
+}
+
+unisim_session_info WalkSession::info() const {
+  unisim_session_info info{};
+  info.struct_size = sizeof info;
+  expect_ok(unisim_get_info(session_, &info), "unisim_get_info");
+  return info;
+}
+
+}  // namespace unisim::bench

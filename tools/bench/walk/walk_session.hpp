@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// A session with its arena that takes simulated predictions.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "drivers/pipeline/heap_watch.hpp"
+#include "tools/bench/simulator/predictor.hpp"
+#include "unisim/unisim.h"
+
+namespace unisim::bench {
+
+/// Calls that fail throw replay::Failure with the name of the call.
+class WalkSession {
+ public:
+  /// @param heap outlives the session
+  WalkSession(const unisim_config& config, const pipeline::HeapWatch& heap);
+  ~WalkSession();
+  WalkSession(const WalkSession&) = delete;
+  WalkSession& operator=(const WalkSession&) = delete;
+
+  size_t arena_bytes() const { return arena_.size(); }
+  void add_keyframe();
+  void add_pair(const simulator::Prediction& pair);
+  /// Keyframes of the oldest window asked for. @return false when there is none
+  bool next_window(int32_t* first, int32_t* count);
+  /// Ask for the last, shorter window. @return false when no keyframes are left over
+  bool close_window();
+  void add_window(const simulator::Prediction& window);
+  void add_loop(const simulator::Prediction& loop);
+  void optimize(int32_t iterations);
+  Eigen::Vector3d position(int32_t keyframe) const;
+  unisim_session_info info() const;
+
+ private:
+  void expect_ok(unisim_status status, const char* call) const;
+  unisim_submap describe(const simulator::Prediction& prediction);
+
+  std::vector<unsigned char> arena_;
+  unisim_session* session_ = nullptr;
+  const pipeline::HeapWatch& heap_;
+  int64_t keyframes_ = 0;
+  std::vector<unisim_sim3> poses_;
+  std::vector<unisim_depth_map> maps_;
+};
+
+}  // namespace unisim::bench
