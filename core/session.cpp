@@ -32,6 +32,7 @@ Session::Session(const SessionConfig& config, const SessionCapacity& capacity, A
       before_(part(arena, "poses before").take<Sim3>(capacity.graph.nodes)),
       live_windows_(part(arena, "skeleton"), capacity.live_windows),
       live_loops_(arena, capacity.live_loops),
+      skeleton_(arena, capacity.skeleton),
       condenser_(arena, capacity.condenser),
       local_node_(arena.take<int32_t>(capacity.live_windows > 0 ? capacity.graph.nodes : 0)),
       window_pair_capacity_(capacity.window_pairs) {}

@@ -80,6 +80,12 @@ struct OptimizeReport {
   double jump_log_scale = 0.0;
 };
 
+/// A node of the skeleton.
+struct SkeletonNode {
+  int32_t submap = -1;  ///< window whose node it is
+  int32_t windows = 0;  ///< that hang on it, itself included
+};
+
 /// Counters.
 struct SessionCounts {
   int32_t posed_keyframes = 0;
@@ -172,7 +178,7 @@ class Session {
   void update_shared(const SubmapUpdate& update);
   double median_log_c(int32_t m, int32_t n);
 
-  // session/retire.cpp, session/retire_loop.cpp
+  // session/retire.cpp, session/retire_loop.cpp, session/merge.cpp
   void retire_surplus(int32_t newest);
   void retire_window(int32_t m, int32_t n);
   bool condense_windows(const Submap& m, const Submap& n, ChainLink* link);
@@ -184,6 +190,14 @@ class Session {
   void drop_windows_before(int32_t keyframe);
   void retire_loops();
   bool all_retired(const Submap& submap) const;
+  void bound_skeleton();
+  int32_t cheapest_merge() const;
+  void merge_skeleton(int32_t place);
+  void move_chain_edges(int32_t a, int32_t b, const Sim3& T_a_b);
+  void replace_chain(int32_t id, int32_t a, int32_t b, const ChainLink& link);
+  void detach_loop_views(int32_t node);
+  void attach_loop_views();
+  void fuse_loop_edges(int32_t node);
   void retire_loop(int32_t id);
   bool condense_loop(const Submap& loop, int32_t a, int32_t b, int32_t split, ChainLink* link);
   int32_t split_view(const Submap& loop) const;
@@ -218,6 +232,7 @@ class Session {
   // The skeleton; empty in the full batch.
   FixedVector<int32_t> live_windows_;  // windows that still have their keyframes, oldest first
   FixedVector<int32_t> live_loops_;
+  FixedVector<SkeletonNode> skeleton_;  // in time order
   Condenser condenser_;
   Span<int32_t> local_node_;  // node -> node of the condenser's graph, -1: not in it
   int32_t live_from_ = 0;     // older keyframes have retired

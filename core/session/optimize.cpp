@@ -84,8 +84,7 @@ void Session::describe_bad_node(OptimizeReport* report) const {
     if (keyframes_[id].node == report->lm.bad_node) report->bad_keyframe = id;
   }
   for (int32_t id = 0; id < submaps_.size(); ++id) {
-    const bool own_node = !(submaps_[id].is_loop && submaps_[id].retired);
-    if (own_node && submaps_[id].node == report->lm.bad_node) report->bad_submap = id;
+    if (submaps_[id].own_node && submaps_[id].node == report->lm.bad_node) report->bad_submap = id;
   }
 }
 
@@ -102,7 +101,8 @@ Status Session::covariance(int32_t keyframe, Mat7* covariance) {
   if (!is_ok(status)) return status;
   if (asked.retired()) {
     // T = S X and S exp(d) X = S X exp(Ad(X^-1) d).
-    const Mat7 Ad = sim3_adjoint(asked.T_owner_kf.inverse());
+    const Mat7 Ad =
+        sim3_adjoint((submaps_[asked.owner].T_node_submap * asked.T_owner_kf).inverse());
     *covariance = (Ad * *covariance * Ad.transpose()).eval();
   }
   *covariance *= variance_factor_;

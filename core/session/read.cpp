@@ -15,14 +15,14 @@ int32_t confidence_of(const Keyframe& keyframe) {
 }  // namespace
 
 Sim3 Session::submap_pose(const Submap& submap) const {
-  if (!submap.retired) return graph_.pose(submap.node);
+  if (submap.own_node) return graph_.pose(submap.node);
   return graph_.pose(submap.node) * submap.T_node_submap;
 }
 
 Sim3 Session::keyframe_pose(int32_t keyframe) const {
   const Keyframe& asked = keyframes_[keyframe];
   if (!asked.retired()) return graph_.pose(asked.node);
-  return graph_.pose(submaps_[asked.owner].node) * asked.T_owner_kf;
+  return submap_pose(submaps_[asked.owner]) * asked.T_owner_kf;
 }
 
 Status Session::pose(int32_t keyframe, PoseOutput* pose) const {

@@ -40,6 +40,7 @@ void Session::retire_surplus(int32_t newest) {
     for (int32_t k = 0; k + 1 < live_windows_.size(); ++k) live_windows_[k] = live_windows_[k + 1];
     live_windows_.pop_back();
     retire_loops();
+    bound_skeleton();
   }
 }
 
@@ -51,6 +52,7 @@ void Session::retire_window(int32_t m, int32_t n) {
   drop_edges(m);
   if (!holds(graph_.set_kind(old.node, NodeKind::kSkeleton))) return;
   old.retired = true;
+  if (!skeleton_.push_back({m, 1})) holds(Status::kInternal);
   for (int32_t id = live_from_; id < next.window_first; ++id) retire_keyframe(id, m, n);
   live_from_ = std::max(live_from_, next.window_first);
   if (linked) {
@@ -136,7 +138,7 @@ void Session::retire_keyframe(int32_t id, int32_t m, int32_t n) {
   if (broken_ || keyframe.node < 0) return;
   const int32_t owner = owner_of(id, m, n);
   Submap& carrier = submaps_[owner];
-  keyframe.T_owner_kf = between(graph_.pose(carrier.node), graph_.pose(keyframe.node));
+  keyframe.T_owner_kf = between(submap_pose(carrier), graph_.pose(keyframe.node));
   keyframe.owner = owner;
   holds(graph_.remove_node(keyframe.node));
   keyframe.node = -1;

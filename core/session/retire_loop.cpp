@@ -43,6 +43,7 @@ void Session::retire_loop(int32_t id) {
   }
   loop.node = a;
   loop.T_node_submap = T_a_loop;
+  loop.own_node = false;
   loop.retired = true;
   ++counts_.retired_loops;
   if (!linked) return;

@@ -38,6 +38,7 @@ void add_skeleton(const SessionConfig& config, SessionCapacity* capacity) {
   const int32_t w = config.window_size;
   capacity->live_windows = config.window_submaps + 1;
   capacity->live_loops = config.max_loops;
+  capacity->skeleton = capacity->windows;
   capacity->graph.chains = capacity->submaps;
   capacity->graph.edges += capacity->graph.chains;
   capacity->graph.measurements += capacity->graph.chains + config.max_loops * w;

@@ -48,6 +48,7 @@ struct SessionConfig {
   int32_t lost_after = 3;
   int32_t max_iterations = 10;
   int32_t window_submaps = 0;
+  int32_t skeleton_capacity = 128;
   LogSink log;
 
   const FactorSetting& factor(FactorKind kind) const { return factors[static_cast<int>(kind)]; }
@@ -63,6 +64,7 @@ struct SessionCapacity {
   int32_t window_pairs = 0;  ///< pairs of submaps that share keyframes: scale edges
   int32_t live_windows = 0;  ///< windows with their keyframes in the graph, 0: all of them
   int32_t live_loops = 0;
+  int32_t skeleton = 0;
   GraphCapacity condenser;
   GraphCapacity graph;
   SolverCapacity solver;

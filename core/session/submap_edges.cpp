@@ -34,19 +34,22 @@ void Session::add_view_edges(int32_t id) {
 /// A retired keyframe is held through its owner: T_i = S_owner X_i.
 void Session::attach_view(const Submap& submap, SubmapView* view) {
   const Keyframe& keyframe = keyframes_[view->keyframe];
-  const int32_t node = keyframe.retired() ? submaps_[keyframe.owner].node : keyframe.node;
+  const bool rigid = keyframe.retired();
+  const int32_t node = rigid ? submaps_[keyframe.owner].node : keyframe.node;
+  const Sim3 T_node_kf =
+      rigid ? submaps_[keyframe.owner].T_node_submap * keyframe.T_owner_kf : Sim3();
   if (config_.factor(FactorKind::kBridge).enabled) {
     const EdgeWeight weight = edge_weight(FactorKind::kBridge, submap.multiplier, submap.is_loop);
     const Sim3 Z_m_i = view_measurement(*view);
-    holds(keyframe.retired() ? graph_.add_rigid_bridge(submap.node, node, Z_m_i,
-                                                       keyframe.T_owner_kf, weight, &view->bridge)
-                             : graph_.add_bridge(submap.node, node, Z_m_i, weight, &view->bridge));
+    holds(rigid
+              ? graph_.add_rigid_bridge(submap.node, node, Z_m_i, T_node_kf, weight, &view->bridge)
+              : graph_.add_bridge(submap.node, node, Z_m_i, weight, &view->bridge));
   }
   if (config_.factor(FactorKind::kScaleAnchor).enabled) {
     const EdgeWeight weight =
         edge_weight(FactorKind::kScaleAnchor, submap.multiplier, submap.is_loop);
-    const double log_s = keyframe.retired() ? std::log(keyframe.T_owner_kf.s) : 0.0;
-    holds(graph_.add_scale_anchor(submap.node, node, view->log_rho - log_s, weight, &view->anchor));
+    const double log_ratio = rigid ? view->log_rho - std::log(T_node_kf.s) : view->log_rho;
+    holds(graph_.add_scale_anchor(submap.node, node, log_ratio, weight, &view->anchor));
   }
 }
 

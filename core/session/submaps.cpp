@@ -174,8 +174,7 @@ void Session::join_segment(const Submap& submap, int32_t segment, int32_t into) 
   move_retired(segment, correction);
   for (int32_t id = 0; id < submaps_.size(); ++id) {
     const Submap& other = submaps_[id];
-    const bool own_node = !(other.is_loop && other.retired);
-    if (other.node < 0 || other.node == submap.node || !own_node) continue;
+    if (other.node < 0 || other.node == submap.node || !other.own_node) continue;
     if (segment_of(other) != segment) continue;
     holds(graph_.set_pose(other.node, correction * graph_.pose(other.node)));
   }
@@ -208,7 +207,7 @@ void Session::move_retired(int32_t segment, const Sim3& correction) {
     const bool owner_moves = segment_of(owner) == segment;
     if (moves == owner_moves) continue;
     const Sim3 T_world_kf = keyframe_pose(id);
-    const Sim3& T_world_owner = graph_.pose(owner.node);
+    const Sim3 T_world_owner = submap_pose(owner);
     keyframe.T_owner_kf = moves ? between(T_world_owner, correction * T_world_kf)
                                 : between(correction * T_world_owner, T_world_kf);
   }

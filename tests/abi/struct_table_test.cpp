@@ -51,7 +51,7 @@ AT(unisim_config, max_iterations, 148);
 AT(unisim_config, log, 152);
 AT(unisim_config, log_user, 160);
 AT(unisim_config, window_submaps, 168);
-AT(unisim_config, reserved, 172);
+AT(unisim_config, skeleton_capacity, 172);
 
 SIZE(unisim_arena_part, 16);
 AT(unisim_arena_part, name, 0);

@@ -261,6 +261,43 @@ TEST_CASE("segments join behind the window too") {
   CHECK(worst_position_error(host, world, 100) < 1e-3);
 }
 
+TEST_CASE("a full skeleton merges and the map stays right") {
+  unisim_config config = config_of(2);
+  config.skeleton_capacity = 8;
+  World world(200, 12U);
+  Host host(config);
+  feed(host, world, 150);
+  REQUIRE(host.add_loop(world.views(both(3, 140))) >= 0);
+  REQUIRE(host.add_loop(world.views(both(10, 60))) >= 0);
+  REQUIRE(host.add_loop(world.views(both(12, 62))) >= 0);
+  feed(host, world, 50);
+  CHECK(host.optimize().final_cost < 1e-8);
+  CHECK(worst_position_error(host, world, 200) < 1e-3);
+}
+
+TEST_CASE("a loop corrects a full skeleton almost as it does the full batch") {
+  Host batch(config_of(0));
+  unisim_config config = config_of(2);
+  config.skeleton_capacity = 8;
+  Host window(config);
+  World world_a(200, 12U, kNoise);
+  World world_b(200, 12U, kNoise);
+  double error[2] = {};
+  for (Host* host : {&batch, &window}) {
+    World& world = host == &batch ? world_a : world_b;
+    feed(*host, world, 180);
+    const double before = worst_position_error(*host, world, 180);
+    REQUIRE(host->add_loop(world.views(both(0, 170))) >= 0);
+    feed(*host, world, 20);
+    host->optimize();
+    error[host == &window] = worst_position_error(*host, world, 200);
+    CAPTURE(before, error[0], error[1]);
+    CHECK(error[host == &window] < 0.8 * before);
+  }
+  CAPTURE(error[0], error[1]);
+  CHECK(error[1] < 1.5 * error[0]);
+}
+
 TEST_CASE("window_submaps is 0 or at least 2") {
   for (const int32_t value : {-1, 1, 65}) {
     const unisim_config config = config_of(value);

@@ -138,7 +138,9 @@ typedef struct unisim_config {
                                keep the place in their submap that unisim_optimize() last gave them
                                (call it after each window) and move with it; what joined two
                                submaps becomes one edge. 0: all of them, the full batch (0) */
-  int32_t reserved;       /**< 0 */
+  int32_t skeleton_capacity; /**< with window_submaps: submaps older than that are optimised one by
+                                  one up to this many, 8..65536; beyond, neighbours in time become
+                                  rigid. 0: no limit (128) */
 } unisim_config;
 
 /** Defaults for every field.
