@@ -99,6 +99,7 @@ struct SessionCounts {
   int32_t map_revision = 0;
   int32_t retired_keyframes = 0;
   int32_t retired_loops = 0;
+  int32_t retired_windows = 0;
 };
 
 /// A session in the caller's memory. Calls return kOk or leave the session as it was; a broken

@@ -43,7 +43,8 @@ Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
   options.max_iterations = max_iterations > 0 ? max_iterations : config_.max_iterations;
   const Status status = solver_.optimize(&graph_, options, &report->lm);
   report->keyframes = counts_.posed_keyframes - counts_.retired_keyframes;
-  report->submaps = counts_.windows + counts_.loops - counts_.retired_loops;
+  const int32_t merged = counts_.retired_windows - skeleton_.size();
+  report->submaps = counts_.windows + counts_.loops - counts_.retired_loops - merged;
   describe_bad_node(report);
   if (status == Status::kNotReady || status == Status::kCapacity) return status;
   describe_changes(report);

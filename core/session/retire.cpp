@@ -52,6 +52,7 @@ void Session::retire_window(int32_t m, int32_t n) {
   drop_edges(m);
   if (!holds(graph_.set_kind(old.node, NodeKind::kSkeleton))) return;
   old.retired = true;
+  ++counts_.retired_windows;
   if (!skeleton_.push_back({m, 1})) holds(Status::kInternal);
   for (int32_t id = live_from_; id < next.window_first; ++id) retire_keyframe(id, m, n);
   live_from_ = std::max(live_from_, next.window_first);

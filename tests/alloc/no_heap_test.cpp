@@ -25,6 +25,7 @@ TEST_CASE("a long random session makes no heap call") {
   config.max_keyframes = 600;
   config.window_overlap = overlap;
   config.window_submaps = window_submaps;
+  config.skeleton_capacity = 8;
   size_t size = 0;
   REQUIRE(unisim_arena_size(&config, &size) == UNISIM_OK);
   std::unique_ptr<unsigned char[]> arena(new unsigned char[size]);
