@@ -3,14 +3,12 @@
 #include "drivers/geometric/depth_grid.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace unisim::geometric {
 
 namespace {
 
-constexpr int kReach = 5;            // cells
 constexpr double kSigma = 2.0;       // cells
 constexpr double kMinWeight = 0.05;  // of the neighbours together
 constexpr double kBetween = 0.5;     // confidence of a well supported cell without a landmark
@@ -18,17 +16,8 @@ constexpr double kDisagreement = 10.0;
 constexpr double kSoftConfidence = 0.5;
 constexpr double kSoftSpread = 0.1;
 
-using Kernel = std::array<double, (2 * kReach + 1) * (2 * kReach + 1)>;
-
-Kernel make_kernel() {
-  Kernel kernel{};
-  size_t i = 0;
-  for (int y = -kReach; y <= kReach; ++y) {
-    for (int x = -kReach; x <= kReach; ++x) {
-      kernel[i++] = std::exp(-(x * x + y * y) / (2 * kSigma * kSigma));
-    }
-  }
-  return kernel;
+size_t cell_of(int column, int row, const cv::Size& grid) {
+  return static_cast<size_t>(row) * static_cast<size_t>(grid.width) + static_cast<size_t>(column);
 }
 
 }  // namespace
@@ -43,18 +32,20 @@ void DepthGrid::reserve(const cv::Size& grid) {
   weight_.resize(cells);
   sum_.resize(cells);
   square_.resize(cells);
+  for (int i = 0; i <= kSpreadReach; ++i) {
+    bell_[static_cast<size_t>(i)] = std::exp(-i * i / (2 * kSigma * kSigma));
+  }
 }
 
 void DepthGrid::spread(int column, int row, double inverse_depth, double weight,
                        const cv::Size& grid) {
-  static const Kernel kKernel = make_kernel();
-  for (int y = std::max(0, row - kReach); y <= std::min(grid.height - 1, row + kReach); ++y) {
-    for (int x = std::max(0, column - kReach); x <= std::min(grid.width - 1, column + kReach);
-         ++x) {
-      const auto at =
-          static_cast<size_t>((y - row + kReach) * (2 * kReach + 1) + x - column + kReach);
-      const auto cell = static_cast<size_t>(y * grid.width + x);
-      const double w = weight * kKernel[at];
+  for (int y = std::max(0, row - kSpreadReach); y <= std::min(grid.height - 1, row + kSpreadReach);
+       ++y) {
+    for (int x = std::max(0, column - kSpreadReach);
+         x <= std::min(grid.width - 1, column + kSpreadReach); ++x) {
+      const double w = weight * bell_[static_cast<size_t>(std::abs(y - row))] *
+                       bell_[static_cast<size_t>(std::abs(x - column))];
+      const size_t cell = cell_of(x, y, grid);
       weight_[cell] += w;
       sum_[cell] += w * inverse_depth;
       square_[cell] += w * inverse_depth * inverse_depth;
@@ -83,7 +74,7 @@ void DepthGrid::run(const State& state, int32_t keyframe, const cv::Size& grid, 
                                                 static_cast<float>(state.size.height)),
                                0, grid.height - 1);
     spread(column, row, 1 / z, mark.soft ? kSoftSpread : 1.0, grid);
-    const auto cell = static_cast<size_t>(row * grid.width + column);
+    const size_t cell = cell_of(column, row, grid);
     const auto sure = static_cast<float>(mark.soft ? kSoftConfidence : 1.0);
     if (sure <= confidence[cell]) continue;
     confidence[cell] = sure;

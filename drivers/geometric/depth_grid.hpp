@@ -3,6 +3,7 @@
 // between.
 #pragma once
 
+#include <array>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -11,6 +12,7 @@
 namespace unisim::geometric {
 
 inline constexpr int kGridWidth = 80;
+inline constexpr int kSpreadReach = 5;  ///< cells that a landmark's depth reaches
 
 /// Grid of kGridWidth columns whose cells cover the image and are nearly square.
 cv::Size depth_grid_size(const cv::Size& image);
@@ -27,6 +29,7 @@ class DepthGrid {
  private:
   void spread(int column, int row, double inverse_depth, double weight, const cv::Size& grid);
 
+  std::array<double, kSpreadReach + 1> bell_{};  // weight by distance in cells
   std::vector<double> weight_;
   std::vector<double> sum_;
   std::vector<double> square_;

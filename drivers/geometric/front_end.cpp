@@ -15,7 +15,7 @@ void FrontEnd::open(const cv::Size& size, int max_tracks, int spacing) {
   max_tracks_ = max_tracks;
   spacing_ = spacing;
   mask_.create(size, CV_8UC1);
-  const auto count = static_cast<size_t>(2 * max_tracks);
+  const auto count = 2 * static_cast<size_t>(max_tracks);
   tracker_.reserve(count);
   retrack_.reserve(count);
   scratch_.reserve(count);

@@ -114,9 +114,8 @@ void Revive::fill_atlas(const PatchStore& patches, size_t first, size_t count) {
     patches.pixels(candidate.landmark, candidate.patch)
         .copyTo(atlas_.gray(cv::Rect(left, top, kTile, kTile)));
     const cv::Point2f& offset = patches.view(candidate.landmark, candidate.patch).offset;
-    const cv::Point2f middle(static_cast<float>(left + kTile / 2),
-                             static_cast<float>(top + kTile / 2));
-    from_.push_back(middle + offset);
+    const cv::Point middle(left + kTile / 2, top + kTile / 2);
+    from_.push_back(cv::Point2f(middle) + offset);
     to_.push_back(candidate.expected);
   }
   cv::buildOpticalFlowPyramid(atlas_.gray, atlas_.pyramid, cv::Size(kTrackWindow, kTrackWindow),

@@ -53,10 +53,14 @@ PredictorPtr open_predictor(const Options& options, std::string* note) {
     throw Failure(kExitUsage, options.record + ": exists; give --force to overwrite it");
   }
   char message[kLine] = "";
-  PredictorPtr recorder(unisim_recorder_create(inner.get(), options.record.c_str(),
+  // The recorder owns the predictor from here on; where it cannot be made, it is still ours.
+  unisim_predictor* const given = inner.release();
+  PredictorPtr recorder(unisim_recorder_create(given, options.record.c_str(),
                                                options.sequence.c_str(), message, sizeof message));
-  if (recorder == nullptr) throw Failure(kExitInput, message);
-  static_cast<void>(inner.release());  // owned by the recorder now
+  if (recorder == nullptr) {
+    inner.reset(given);
+    throw Failure(kExitInput, message);
+  }
   return recorder;
 }
 

@@ -71,14 +71,16 @@ void write_page(const Run& run, const std::vector<std::string>& messages, Output
   folder->write_text("report.html", report::report_html(page_data(run, messages)));
 }
 
-int exit_code(pipeline::Outcome outcome) {
+/// A recording that fails is bad input; a predictor that computes fails like a device.
+int exit_code(pipeline::Outcome outcome, const Options& options) {
   switch (outcome) {
     case pipeline::Outcome::kFinished:
       return kExitDone;
     case pipeline::Outcome::kSourceFailed:
       return kExitInput;
-    case pipeline::Outcome::kCapacity:
     case pipeline::Outcome::kPredictorFailed:
+      return options.predictor == "recorded" ? kExitInput : kExitLimit;
+    case pipeline::Outcome::kCapacity:
       return kExitLimit;
     case pipeline::Outcome::kStopped:
     case pipeline::Outcome::kSessionFailed:
@@ -90,9 +92,9 @@ int exit_code(pipeline::Outcome outcome) {
 void say_problem(const std::string& line) { std::cerr << "unisim-replay: " << line << "\n"; }
 
 /// The run left no pose: says why.
-int report_nothing(const pipeline::Result& result) {
+int report_nothing(const pipeline::Result& result, const Options& options) {
   std::string line = result.message;
-  int code = exit_code(result.outcome);
+  int code = exit_code(result.outcome, options);
   if (result.outcome == pipeline::Outcome::kFinished) {
     code = kExitInput;
     const pipeline::Progress& progress = result.progress;
@@ -138,7 +140,7 @@ void print_result(const Run& run, const OutputFolder& folder) {
 
 /// Prints what went wrong on the way; the first reason decides the exit code.
 int conclude(const Run& run, const OutputFolder& folder, const std::string& recording) {
-  int code = exit_code(run.result.outcome);
+  int code = exit_code(run.result.outcome, run.options);
   const auto add = [&code](int reason, const std::string& line) {
     if (line.empty()) return;
     if (code == kExitDone) code = reason;
@@ -183,7 +185,7 @@ int replay(const Options& options, const std::atomic<bool>& stop) {
   progress.finish();
 
   const RunData data = collect(pipeline.session(), result, options.settings.pipeline.every_frame);
-  if (data.trajectory.empty()) return report_nothing(result);
+  if (data.trajectory.empty()) return report_nothing(result, options);
   const Scores scores = score(truth, data);
   const Run run = {options, result, data, truth, scores, source->format};
   write_files(run, &folder);
