@@ -431,10 +431,9 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_trajectory(const unisim_ses
 
 /** Marginal covariance of a keyframe pose (7x7, column-major, tangent order), from the last
  *  unisim_optimize(), times its variance of unit weight (2 cost / degrees of freedom). Zero for the
- *  first keyframe of a segment, which is held.
- *  Behind a sliding window it is that of the submap that carries the keyframe, zero on the first.
- * Cost: one factorisation for the first keyframe asked for, one solve with seven right-hand sides
- * for each.
+ *  first keyframe of a segment, which is held. Behind a sliding window it is that of the submap
+ *  that carries the keyframe, zero on the first submap. Cost: one factorisation for the first
+ *  keyframe asked for, one solve with seven right-hand sides for each.
  *  @param session live session
  *  @param keyframe_id as unisim_add_keyframe() gave it
  *  @param[out] covariance 49 values, column-major
