@@ -19,25 +19,28 @@ Span<unsigned char> take_session(Arena& arena) {
 
 }  // namespace
 
-Session::Session(const SessionConfig& config, Arena& arena)
+Session::Session(const SessionConfig& config, const SessionCapacity& capacity, Arena& arena)
     : config_(config),
       keyframes_(part(arena, "keyframes"), config.max_keyframes),
-      windows_(part(arena, "windows"), config.window_size, config.window_overlap,
-               session_capacity(config).windows),
-      submaps_(part(arena, "submaps"), session_capacity(config).submaps,
-               session_capacity(config).views, session_capacity(config).shared),
+      windows_(part(arena, "windows"), config.window_size, config.window_overlap, capacity.windows),
+      submaps_(part(arena, "submaps"), capacity.submaps, capacity.views, capacity.shared),
       tracking_(config.lost_after),
-      depth_(part(arena, "depth"), session_capacity(config).depth, config.confidence_drop),
-      graph_(part(arena, "graph"), session_capacity(config).graph),
-      gauge_(arena, session_capacity(config).graph.nodes),
-      solver_(part(arena, "solver"), session_capacity(config).solver),
-      before_(part(arena, "poses before").take<Sim3>(config.max_keyframes)),
-      window_pair_capacity_(session_capacity(config).window_pairs) {}
+      depth_(part(arena, "depth"), capacity.depth, config.confidence_drop),
+      graph_(part(arena, "graph"), capacity.graph),
+      gauge_(arena, capacity.graph.nodes),
+      solver_(part(arena, "solver"), capacity.solver),
+      before_(part(arena, "poses before").take<Sim3>(capacity.graph.nodes)),
+      live_windows_(part(arena, "skeleton"), capacity.live_windows),
+      live_loops_(arena, capacity.live_loops),
+      skeleton_(arena, capacity.skeleton),
+      condenser_(arena, capacity.condenser),
+      local_node_(arena.take<int32_t>(capacity.live_windows > 0 ? capacity.graph.nodes : 0)),
+      window_pair_capacity_(capacity.window_pairs) {}
 
 Arena Session::measure(const SessionConfig& config) {
   Arena arena;
   static_cast<void>(take_session(arena));
-  const Session dry(config, arena);
+  const Session dry(config, session_capacity(config), arena);
   return arena;
 }
 
@@ -46,7 +49,8 @@ Status Session::create(const SessionConfig& config, void* memory, size_t bytes, 
   if (bytes < measure(config).required_bytes()) return Status::kOutOfMemory;
   const Span<unsigned char> place = take_session(arena);
   if (place.data() == nullptr) return Status::kOutOfMemory;
-  auto* made = ::new (static_cast<void*>(place.data())) Session(config, arena);
+  auto* made =
+      ::new (static_cast<void*>(place.data())) Session(config, session_capacity(config), arena);
   made->memory_ = memory;
   made->memory_bytes_ = bytes;
   made->used_bytes_ = arena.used_bytes();

@@ -15,6 +15,7 @@
 #include "core/map/submap_window.hpp"
 #include "core/map/tracking_state.hpp"
 #include "core/session/session_config.hpp"
+#include "core/solve/condenser.hpp"
 #include "core/solve/lm.hpp"
 
 namespace unisim {
@@ -79,6 +80,12 @@ struct OptimizeReport {
   double jump_log_scale = 0.0;
 };
 
+/// A node of the skeleton.
+struct SkeletonNode {
+  int32_t submap = -1;  ///< window whose node it is
+  int32_t windows = 0;  ///< that hang on it, itself included
+};
+
 /// Counters.
 struct SessionCounts {
   int32_t posed_keyframes = 0;
@@ -90,6 +97,9 @@ struct SessionCounts {
   int32_t pairs_refused = 0;
   int32_t segments = 0;
   int32_t map_revision = 0;
+  int32_t retired_keyframes = 0;
+  int32_t retired_loops = 0;
+  int32_t retired_windows = 0;
 };
 
 /// A session in the caller's memory. Calls return kOk or leave the session as it was; a broken
@@ -133,10 +143,13 @@ class Session {
   size_t arena_used_bytes() const { return used_bytes_; }
   /// @return kOk; kInvalidArgument for an unknown id; kNotReady when it has no pose yet
   Status pose(int32_t keyframe, PoseOutput* pose) const;
+  /// Latest pose; the keyframe is posed().
+  Sim3 keyframe_pose(int32_t keyframe) const;
+  Sim3 submap_pose(const Submap& submap) const;
   bool has_pose(int32_t keyframe) const { return keyframes_.pose_source(keyframe) >= 0; }
 
  private:
-  Session(const SessionConfig& config, Arena& arena);
+  Session(const SessionConfig& config, const SessionCapacity& capacity, Arena& arena);
 
   void accept_pair(const TwoViewInput& input, double log_ratio, double multiplier);
   void refuse_pair(int32_t j);
@@ -152,15 +165,44 @@ class Session {
   void place_submap(Submap* submap);
   void join_segment(const Submap& submap, int32_t segment, int32_t into);
   void adopt_views(const SubmapInput& input, const Submap& submap);
+  void move_retired(int32_t segment, const Sim3& correction);
+  int32_t segment_of(const Submap& submap) const;
   void add_view_edges(int32_t id);
+  void attach_view(const Submap& submap, SubmapView* view);
   void add_shared_edges(int32_t id);
   bool take_window_pair(int32_t m, int32_t n);
   void add_scale_edge(int32_t m, int32_t n);
   void keep_shared_depth(const SubmapInput& input, int32_t id, const Window& window);
   void count_cover(int32_t id);
   void update_views(const SubmapUpdate& update, Submap* submap);
+  void set_bridge_measurement(const SubmapView& view);
   void update_shared(const SubmapUpdate& update);
   double median_log_c(int32_t m, int32_t n);
+
+  // session/retire.cpp, session/retire_loop.cpp, session/merge.cpp
+  void retire_surplus(int32_t newest);
+  void retire_window(int32_t m, int32_t n);
+  bool condense_windows(const Submap& m, const Submap& n, ChainLink* link);
+  bool load_between(const Submap& m, const Submap& n);
+  void guess_link(const Submap& m, const Submap& n, ChainLink* link) const;
+  void drop_edges(int32_t id);
+  void retire_keyframe(int32_t id, int32_t m, int32_t n);
+  int32_t owner_of(int32_t id, int32_t m, int32_t n) const;
+  void drop_windows_before(int32_t keyframe);
+  void retire_loops();
+  bool all_retired(const Submap& submap) const;
+  void bound_skeleton();
+  int32_t cheapest_merge() const;
+  void merge_skeleton(int32_t place);
+  void move_chain_edges(int32_t a, int32_t b, const Sim3& T_a_b);
+  void replace_chain(int32_t id, int32_t a, int32_t b, const ChainLink& link);
+  void detach_loop_views(int32_t node);
+  void attach_loop_views();
+  void fuse_loop_edges(int32_t node);
+  void retire_loop(int32_t id);
+  bool condense_loop(const Submap& loop, int32_t a, int32_t b, int32_t split, ChainLink* link);
+  int32_t split_view(const Submap& loop) const;
+  int32_t main_node(const Submap& loop, int32_t begin, int32_t end) const;
 
   Sim3 view_measurement(const SubmapView& view) const;
   Sim3 shared_measurement(const SharedKeyframe& shared) const;
@@ -186,7 +228,15 @@ class Session {
   Graph graph_;
   Gauge gauge_;
   LevenbergMarquardt solver_;
-  Span<Sim3> before_;  // keyframe poses before an optimisation, by keyframe
+  Span<Sim3> before_;  // poses before an optimisation, by node
+
+  // The skeleton; empty in the full batch.
+  FixedVector<int32_t> live_windows_;  // windows that still have their keyframes, oldest first
+  FixedVector<int32_t> live_loops_;
+  FixedVector<SkeletonNode> skeleton_;  // in time order
+  Condenser condenser_;
+  Span<int32_t> local_node_;  // node -> node of the condenser's graph, -1: not in it
+  int32_t live_from_ = 0;     // older keyframes have retired
 
   SessionCounts counts_;
   int32_t settled_ = 0;    // last keyframe whose pair with the one before is settled

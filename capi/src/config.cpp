@@ -32,6 +32,7 @@ unisim_config defaults() {
   config.scatter_gate = 0.13;
   config.lost_after = 3;
   config.max_iterations = 10;
+  config.skeleton_capacity = 128;
   return config;
 }
 
@@ -46,7 +47,9 @@ bool sizes_in_range(const unisim_config& c) {
          within(c.max_submaps, 0, 65536) && within(c.max_loops, 0, 4096) &&
          within(c.depth_grid_width, 4, 512) && within(c.depth_grid_height, 4, 512) &&
          (c.disabled_factors & ~31U) == 0 && within(c.lost_after, 1, 1000000) &&
-         within(c.max_iterations, 1, 1000000);
+         within(c.max_iterations, 1, 1000000) &&
+         (c.window_submaps == 0 || within(c.window_submaps, 2, 64)) &&
+         (c.skeleton_capacity == 0 || within(c.skeleton_capacity, 8, 65536));
 }
 
 bool numbers_in_range(const unisim_config& c) {
@@ -99,6 +102,8 @@ unisim_status read_config(const unisim_config* from, SessionConfig* to) {
   to->scatter_gate = c.scatter_gate;
   to->lost_after = c.lost_after;
   to->max_iterations = c.max_iterations;
+  to->window_submaps = c.window_submaps;
+  to->skeleton_capacity = c.skeleton_capacity;
   to->log = {c.log, c.log_user};
   return UNISIM_OK;
 }

@@ -17,7 +17,7 @@ template <class T>
 struct FirstSize;
 template <>
 struct FirstSize<unisim_config> {
-  static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_config, log_user);
+  static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_config, skeleton_capacity);
 };
 template <>
 struct FirstSize<unisim_keyframe> {

@@ -105,7 +105,7 @@ unisim_status unisim_get_submap(const unisim_session* session, int32_t submap_id
   for (int32_t k = 0; k < submap.count; ++k) {
     s.keyframe_ids[k] = source.submaps().view(submap, k).keyframe;
   }
-  s.T_world_submap = unisim::write_pose(source.graph().pose(submap.node));
+  s.T_world_submap = unisim::write_pose(source.submap_pose(submap));
   s.center_sigma = submap.center_sigma;
   s.scatter = submap.scatter;
   unisim::write_struct(s, unisim::struct_size_of(info), info);

@@ -9,27 +9,33 @@
 
 namespace unisim {
 
-enum class NodeKind : uint8_t { kKeyframe, kSubmap };
+/// A skeleton node is a submap whose keyframes have left the graph.
+enum class NodeKind : uint8_t { kKeyframe, kSubmap, kSkeleton };
 
 /// Keyframe (T_world_kf) or submap (T_world_submap).
 struct Node {
   Sim3 T_world_node;
+  uint32_t serial = 0;  ///< grows with each node added: age where ids are used again
   NodeKind kind = NodeKind::kKeyframe;
   bool fixed = false;  ///< pose is held: the node has no columns in the system
   bool alive = false;
 };
 
-enum class FactorKind : uint8_t { kTwoView, kBridge, kTie, kScaleAnchor, kScale };
+enum class FactorKind : uint8_t { kTwoView, kBridge, kTie, kScaleAnchor, kScale, kChain };
 
-/// Pose factors have 7 rows and read P (and Q), scale factors have 1 and read log_ratio.
-constexpr bool is_pose_factor(FactorKind kind) { return kind <= FactorKind::kTie; }
+/// Pose factors have 7 rows and read P (and Q, Lambda), scale factors have 1 and read log_ratio.
+constexpr bool is_pose_factor(FactorKind kind) {
+  return kind <= FactorKind::kTie || kind == FactorKind::kChain;
+}
 
-/// One factor between nodes a and b. Its cost is rho(u), u = sqrt(information * multiplier) |e|.
+/// One factor between nodes a and b. Its cost is rho(u), u = sqrt(information * multiplier) |e|;
+/// of a chain factor u = sqrt(information * multiplier * e' Lambda e).
 struct Edge {
   int32_t a = -1;
   int32_t b = -1;
   int32_t P = -1;            ///< measurement slot, pose factors only
-  int32_t Q = -1;            ///< second measurement slot of a tie; -1: identity
+  int32_t Q = -1;            ///< second measurement slot; -1: identity
+  int32_t Lambda = -1;       ///< information slot, chain factors only
   double log_ratio = 0.0;    ///< c of a scale factor
   double information = 1.0;  ///< weight of the factor kind, > 0
   double multiplier = 1.0;   ///< weight of this edge for its quality, >= 0

@@ -49,7 +49,9 @@ Graph::Graph(Arena& arena, const GraphCapacity& capacity)
       edges_(arena, capacity.edges),
       free_edges_(arena, capacity.edges),
       measurements_(arena, capacity.measurements),
-      free_measurements_(arena, capacity.measurements) {}
+      free_measurements_(arena, capacity.measurements),
+      informations_(arena, capacity.chains),
+      free_informations_(arena, capacity.chains) {}
 
 void Graph::clear() {
   nodes_.clear();
@@ -58,6 +60,9 @@ void Graph::clear() {
   free_edges_.clear();
   measurements_.clear();
   free_measurements_.clear();
+  informations_.clear();
+  free_informations_.clear();
+  next_serial_ = 0;
   node_count_ = 0;
   edge_count_ = 0;
   structure_changed();
@@ -76,7 +81,7 @@ Status Graph::add_node(NodeKind kind, const Sim3& T_world_node, int32_t* id) {
   if (!T_world_node.valid()) return Status::kInvalidArgument;
   if (room(nodes_, free_nodes_) == 0) return Status::kCapacity;
   *id = take_slot(&nodes_, &free_nodes_);
-  nodes_[*id] = Node{T_world_node, kind, false, true};
+  nodes_[*id] = Node{T_world_node, next_serial_++, kind, false, true};
   ++node_count_;
   structure_changed();
   return Status::kOk;
@@ -98,6 +103,13 @@ Status Graph::set_fixed(int32_t id, bool fixed) {
   if (!has_node(id)) return Status::kInvalidArgument;
   if (nodes_[id].fixed == fixed) return Status::kOk;
   nodes_[id].fixed = fixed;
+  structure_changed();
+  return Status::kOk;
+}
+
+Status Graph::set_kind(int32_t id, NodeKind kind) {
+  if (!has_node(id)) return Status::kInvalidArgument;
+  nodes_[id].kind = kind;
   structure_changed();
   return Status::kOk;
 }
@@ -175,6 +187,11 @@ Status Graph::add_bridge(int32_t submap, int32_t keyframe, const Sim3& Z_m_i,
   return add_pose_edge(FactorKind::kBridge, submap, keyframe, Z_m_i, nullptr, weight, id);
 }
 
+Status Graph::add_rigid_bridge(int32_t submap, int32_t owner, const Sim3& Z_m_i,
+                               const Sim3& T_owner_kf, const EdgeWeight& weight, int32_t* id) {
+  return add_pose_edge(FactorKind::kBridge, submap, owner, Z_m_i, &T_owner_kf, weight, id);
+}
+
 Status Graph::add_tie(int32_t m, int32_t n, const Sim3& P, const Sim3& T_submap_n_kf,
                       const EdgeWeight& weight, int32_t* id) {
   return add_pose_edge(FactorKind::kTie, m, n, P, &T_submap_n_kf, weight, id);
@@ -189,10 +206,26 @@ Status Graph::add_scale(int32_t m, int32_t n, double log_c, const EdgeWeight& we
   return add_scale_edge(FactorKind::kScale, m, n, log_c, weight, id);
 }
 
+Status Graph::add_chain(int32_t a, int32_t b, const ChainLink& link, const EdgeWeight& weight,
+                        int32_t* id) {
+  if (!valid_link(link)) return Status::kInvalidArgument;
+  if (room(informations_, free_informations_) == 0) return Status::kCapacity;
+  const Status status = add_pose_edge(FactorKind::kChain, a, b, link.Z_a_b, nullptr, weight, id);
+  if (!is_ok(status)) return status;
+  edges_[*id].Lambda = take_slot(&informations_, &free_informations_);
+  informations_[edges_[*id].Lambda] = link.Lambda;
+  return Status::kOk;
+}
+
+ChainLink Graph::link(const Edge& edge) const {
+  return {measurements_[edge.P], informations_[edge.Lambda]};
+}
+
 void Graph::release_edge(int32_t id) {
   Edge& edge = edges_[id];
   if (edge.P >= 0) give_back(&free_measurements_, edge.P);
   if (edge.Q >= 0) give_back(&free_measurements_, edge.Q);
+  if (edge.Lambda >= 0) give_back(&free_informations_, edge.Lambda);
   edge = Edge();
   give_back(&free_edges_, id);
   --edge_count_;
@@ -261,16 +294,21 @@ Vec7 edge_residual(const Graph& graph, const Edge& edge) {
   return e;
 }
 
+double edge_norm_squared(const Graph& graph, const Edge& edge) {
+  const Vec7 e = edge_residual(graph, edge);
+  if (edge.kind != FactorKind::kChain) return edge.weight() * e.squaredNorm();
+  return edge.weight() * e.dot(graph.link(edge).Lambda * e);
+}
+
 double Graph::edge_norm(int32_t id) const {
-  return std::sqrt(edges_[id].weight()) * edge_residual(*this, edges_[id]).norm();
+  return std::sqrt(edge_norm_squared(*this, edges_[id]));
 }
 
 double Graph::cost() const {
   double cost = 0.0;
   for (const Edge& edge : edges_) {
     if (!edge.active()) continue;
-    const double u2 = edge.weight() * edge_residual(*this, edge).squaredNorm();
-    cost += robust_cost(edge.kernel, u2).cost;
+    cost += robust_cost(edge.kernel, edge_norm_squared(*this, edge)).cost;
   }
   return cost;
 }

@@ -7,6 +7,7 @@
 #include "core/base/arena.hpp"
 #include "core/base/fixed_vector.hpp"
 #include "core/base/status.hpp"
+#include "core/graph/chain.hpp"
 #include "core/graph/edge.hpp"
 
 namespace unisim {
@@ -15,7 +16,9 @@ namespace unisim {
 struct GraphCapacity {
   int32_t nodes = 0;
   int32_t edges = 0;
-  int32_t measurements = 0;  ///< 1 per two_view and bridge edge, 2 per tie edge, 0 per scale edge
+  int32_t measurements = 0;  ///< 1 per two_view, bridge and chain edge, 2 per tie and rigid bridge
+                             ///< edge, 0 per scale edge
+  int32_t chains = 0;        ///< chain edges among the edges
 };
 
 /// What every edge is given besides its measurement.
@@ -42,6 +45,7 @@ class Graph {
   Status remove_node(int32_t id);
   /// Hold or release a pose (gauge: hold one node of each connected component).
   Status set_fixed(int32_t id, bool fixed);
+  Status set_kind(int32_t id, NodeKind kind);
   Status set_pose(int32_t id, const Sim3& T_world_node);
   bool has_node(int32_t id) const;
   const Node& node(int32_t id) const { return nodes_[id]; }
@@ -58,6 +62,9 @@ class Graph {
   /// @param Z_m_i bridge_measurement()
   Status add_bridge(int32_t submap, int32_t keyframe, const Sim3& Z_m_i, const EdgeWeight& weight,
                     int32_t* id);
+  /// Bridge to a keyframe that has no node: rigid under the node of another submap, its owner.
+  Status add_rigid_bridge(int32_t submap, int32_t owner, const Sim3& Z_m_i, const Sim3& T_owner_kf,
+                          const EdgeWeight& weight, int32_t* id);
   /// @param P tie_measurement()
   Status add_tie(int32_t m, int32_t n, const Sim3& P, const Sim3& T_submap_n_kf,
                  const EdgeWeight& weight, int32_t* id);
@@ -65,11 +72,14 @@ class Graph {
   Status add_scale_anchor(int32_t submap, int32_t keyframe, double log_rho_mi,
                           const EdgeWeight& weight, int32_t* id);
   Status add_scale(int32_t m, int32_t n, double log_c, const EdgeWeight& weight, int32_t* id);
+  /// @return kInvalidArgument also for an information that is not positive definite
+  Status add_chain(int32_t a, int32_t b, const ChainLink& link, const EdgeWeight& weight,
+                   int32_t* id);
   Status remove_edge(int32_t id);
 
   /// Put a new measurement into a two_view or bridge edge.
   Status set_measurement(int32_t id, const Sim3& Z);
-  /// Put new measurements into a tie edge.
+  /// Put new measurements into a tie or rigid bridge edge.
   Status set_tie_measurement(int32_t id, const Sim3& P, const Sim3& T_submap_n_kf);
   /// Put a new log ratio into a scale_anchor or scale edge.
   Status set_log_ratio(int32_t id, double log_ratio);
@@ -83,8 +93,10 @@ class Graph {
   int32_t edge_count() const { return edge_count_; }
   const Sim3& measurement(int32_t slot) const { return measurements_[slot]; }
 
-  /// Whitened norm u = sqrt(information * multiplier) |e| of an edge at the present poses,
-  /// suspended or not.
+  /// What a chain edge holds.
+  ChainLink link(const Edge& edge) const;
+
+  /// Whitened norm u of an edge at the present poses, suspended or not.
   double edge_norm(int32_t id) const;
   /// Sum of rho(u) over active edges.
   double cost() const;
@@ -111,11 +123,17 @@ class Graph {
   FixedVector<int32_t> free_edges_;
   FixedVector<Sim3> measurements_;
   FixedVector<int32_t> free_measurements_;
+  FixedVector<Mat7> informations_;
+  FixedVector<int32_t> free_informations_;
+  uint32_t next_serial_ = 0;
   int32_t node_count_ = 0;
   int32_t edge_count_ = 0;
   uint64_t structure_revision_ = 1;
   uint64_t revision_ = 1;
 };
+
+/// u^2 of an edge at the present poses.
+double edge_norm_squared(const Graph& graph, const Edge& edge);
 
 /// e of an edge at the given poses; rows beyond the first are zero for scale factors.
 Vec7 edge_residual(const Graph& graph, const Edge& edge);

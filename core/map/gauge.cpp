@@ -3,6 +3,15 @@
 #include "core/map/gauge.hpp"
 
 namespace unisim {
+namespace {
+
+/// Skeleton nodes are the oldest part of a map, and the past is what stays where it is.
+int32_t rank(NodeKind kind) {
+  if (kind == NodeKind::kSkeleton) return 0;
+  return kind == NodeKind::kKeyframe ? 1 : 2;
+}
+
+}  // namespace
 
 int32_t Gauge::root_of(int32_t node) {
   while (parent_[node] != node) {
@@ -13,9 +22,11 @@ int32_t Gauge::root_of(int32_t node) {
 }
 
 bool Gauge::comes_first(const Graph& graph, int32_t a, int32_t b) {
-  const NodeKind kind_a = graph.node(a).kind;
-  const NodeKind kind_b = graph.node(b).kind;
-  return kind_a == kind_b ? a < b : kind_a == NodeKind::kKeyframe;
+  const Node& node_a = graph.node(a);
+  const Node& node_b = graph.node(b);
+  const int32_t rank_a = rank(node_a.kind);
+  const int32_t rank_b = rank(node_b.kind);
+  return rank_a == rank_b ? node_a.serial < node_b.serial : rank_a < rank_b;
 }
 
 Status Gauge::apply(Graph* graph) {

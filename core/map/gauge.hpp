@@ -8,8 +8,9 @@
 
 namespace unisim {
 
-/// Holds one node of every part of a graph that pose factors connect: its first keyframe, else its
-/// first submap. Scale factors alone do not connect: they leave six dimensions open.
+/// Holds one node of every part of a graph that pose factors connect: its first skeleton
+/// node, else its first keyframe, else its first submap. Scale factors alone do not connect: they
+/// leave six dimensions open.
 class Gauge {
  public:
   Gauge() = default;

@@ -5,21 +5,28 @@
 #include <cstdint>
 
 #include "core/base/fixed_vector.hpp"
+#include "core/lie/sim3.hpp"
 #include "core/map/tracking_state.hpp"
 
 namespace unisim {
 
-/// What is kept of a keyframe; its pose is its graph node's.
+/// What is kept of a keyframe; its pose is its graph node's, or once it has retired T_owner_kf
+/// under its owner.
 struct Keyframe {
   int64_t timestamp_ns = 0;
   int32_t node = -1;                 ///< graph node; -1: no prediction supports a pose
-  int32_t held_from = -1;            ///< without a node: keyframe whose pose stands in, -1: none
+  int32_t owner = -1;                ///< retired: submap whose pose carries it, -1: none
+  Sim3 T_owner_kf;                   ///< retired: pose in the owner, scale included
+  int32_t held_from = -1;            ///< without a pose: keyframe whose pose stands in, -1: none
   int32_t segment = -1;              ///< -1 until it has a pose
   Tracking state = Tracking::kInit;  ///< after the pair that ends here was settled
   int32_t best_submap = -1;          ///< covering submap whose centre is nearest in views
   int32_t best_distance = 0;         ///< that distance
   int32_t window_count = 0;          ///< submaps of windows that cover it
   int32_t loop_count = 0;            ///< loop submaps that cover it
+
+  bool retired() const { return owner >= 0; }
+  bool posed() const { return node >= 0 || retired(); }
 };
 
 /// Keyframe by id. The full batch keeps all of them, so an id is an index; when old keyframes
@@ -43,9 +50,9 @@ class KeyframeRing {
     return size() - 1;
   }
 
-  /// Keyframe whose node carries the pose of `id`: itself, the one it is held from, or -1.
+  /// Keyframe that has the pose of `id`: itself, the one it is held from, or -1.
   int32_t pose_source(int32_t id) const {
-    return keyframes_[id].node >= 0 ? id : keyframes_[id].held_from;
+    return keyframes_[id].posed() ? id : keyframes_[id].held_from;
   }
 
  private:

@@ -27,11 +27,17 @@ struct SubmapView {
 
 /// A window's or a loop's prediction in the graph.
 struct Submap {
-  int32_t node = -1;       ///< graph node
+  int32_t node = -1;       ///< graph node; or that of the submap it hangs on
+  Sim3 T_node_submap;      ///< pose under that node; identity where the node is the submap's own
   int32_t first_view = 0;  ///< in the table's view pool
   int32_t count = 0;       ///< views, the unused ones included
   int32_t origin = 0;      ///< view at the submap's origin
   bool is_loop = false;
+  bool own_node = true;      ///< false: hangs on the node of another submap by T_node_submap
+  bool retired = false;      ///< part of the skeleton: no edges of its own
+  int32_t window_first = 0;  ///< of a window: first keyframe asked for
+  int32_t first_owned = -1;  ///< retired keyframes that hang on it lie in first..last, -1: none
+  int32_t last_owned = -1;
   double center_sigma = 0.0;  ///< as handed in, 0: not known
   double scatter = 0.0;       ///< median over measured views
   double multiplier = 1.0;    ///< of its edges

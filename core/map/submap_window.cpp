@@ -41,6 +41,16 @@ int32_t WindowSchedule::find(int32_t first, int32_t last) const {
   return holder;
 }
 
+bool WindowSchedule::drop_before(int32_t keyframe, Window* dropped) {
+  for (int32_t i = 0; i < open_.size(); ++i) {
+    if (open_[i].first >= keyframe) continue;
+    *dropped = open_[i];
+    remove(i);
+    return true;
+  }
+  return false;
+}
+
 void WindowSchedule::remove(int32_t index) {
   for (int32_t i = index; i + 1 < open_.size(); ++i) open_[i] = open_[i + 1];
   open_.pop_back();

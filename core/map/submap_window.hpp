@@ -36,6 +36,8 @@ class WindowSchedule {
   /// Open window with exactly these ends, else the oldest that holds both; -1 when there is none.
   int32_t find(int32_t first, int32_t last) const;
   const Window& at(int32_t index) const { return open_[index]; }
+  /// Give up the oldest open window that begins before a keyframe. false: there is none.
+  bool drop_before(int32_t keyframe, Window* dropped);
   /// The window is answered.
   void remove(int32_t index);
 

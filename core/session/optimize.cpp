@@ -15,6 +15,11 @@ bool moved(const Sim3& before, const Sim3& after) {
   return sim3_log(between(before, after)).cwiseAbs().maxCoeff() > kLeastMove;
 }
 
+void note_changed(int32_t first, int32_t last, OptimizeReport* report) {
+  if (report->first_changed < 0 || first < report->first_changed) report->first_changed = first;
+  report->last_changed = std::max(report->last_changed, last);
+}
+
 /// Rows of all active edges minus free unknowns.
 int32_t degrees_of_freedom(const Graph& graph) {
   int32_t rows = 0;
@@ -32,15 +37,14 @@ int32_t degrees_of_freedom(const Graph& graph) {
 
 Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
   *report = OptimizeReport();
-  for (int32_t id = 0; id < keyframes_.size(); ++id) {
-    if (keyframes_[id].node >= 0) before_[id] = graph_.pose(keyframes_[id].node);
-  }
+  for (int32_t node = 0; node < graph_.node_end(); ++node) before_[node] = graph_.pose(node);
   if (!holds(gauge_.apply(&graph_))) return Status::kInternal;
   LmOptions options;
   options.max_iterations = max_iterations > 0 ? max_iterations : config_.max_iterations;
   const Status status = solver_.optimize(&graph_, options, &report->lm);
-  report->keyframes = counts_.posed_keyframes;
-  report->submaps = counts_.windows + counts_.loops;
+  report->keyframes = counts_.posed_keyframes - counts_.retired_keyframes;
+  const int32_t merged = counts_.retired_windows - skeleton_.size();
+  report->submaps = counts_.windows + counts_.loops - counts_.retired_loops - merged;
   describe_bad_node(report);
   if (status == Status::kNotReady || status == Status::kCapacity) return status;
   describe_changes(report);
@@ -51,18 +55,24 @@ Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
 }
 
 void Session::describe_changes(OptimizeReport* report) {
+  for (int32_t id = 0; id < submaps_.size(); ++id) {
+    const Submap& submap = submaps_[id];
+    if (submap.first_owned >= 0 && moved(before_[submap.node], graph_.pose(submap.node))) {
+      note_changed(submap.first_owned, submap.last_owned, report);
+    }
+  }
   int32_t newest = -1;
-  for (int32_t id = 0; id < keyframes_.size(); ++id) {
-    if (keyframes_[id].node < 0) continue;
+  for (int32_t id = live_from_; id < keyframes_.size(); ++id) {
+    const int32_t node = keyframes_[id].node;
+    if (node < 0) continue;
     newest = id;
-    if (!moved(before_[id], graph_.pose(keyframes_[id].node))) continue;
-    if (report->first_changed < 0) report->first_changed = id;
-    report->last_changed = id;
+    if (moved(before_[node], graph_.pose(node))) note_changed(id, id, report);
   }
   if (newest < 0) return;
+  const Sim3& before = before_[keyframes_[newest].node];
   const Sim3& after = graph_.pose(keyframes_[newest].node);
-  const Vec7 jump = sim3_log(between(before_[newest], after));
-  report->jump_translation = (after.t - before_[newest].t).norm();
+  const Vec7 jump = sim3_log(between(before, after));
+  report->jump_translation = (after.t - before.t).norm();
   report->jump_rotation = jump.segment<3>(3).norm();
   report->jump_log_scale = jump[6];
   const bool past_moved = report->first_changed >= 0 && report->first_changed < newest;
@@ -75,20 +85,28 @@ void Session::describe_bad_node(OptimizeReport* report) const {
     if (keyframes_[id].node == report->lm.bad_node) report->bad_keyframe = id;
   }
   for (int32_t id = 0; id < submaps_.size(); ++id) {
-    if (submaps_[id].node == report->lm.bad_node) report->bad_submap = id;
+    if (submaps_[id].own_node && submaps_[id].node == report->lm.bad_node) report->bad_submap = id;
   }
 }
 
 Status Session::covariance(int32_t keyframe, Mat7* covariance) {
   if (!keyframes_.has(keyframe)) return Status::kInvalidArgument;
-  const int32_t node = keyframes_[keyframe].node;
+  const Keyframe& asked = keyframes_[keyframe];
+  const int32_t node = asked.retired() ? submaps_[asked.owner].node : asked.node;
   if (node < 0 || graph_.revision() != solved_revision_) return Status::kNotReady;
   if (graph_.node(node).fixed) {
     covariance->setZero();
     return Status::kOk;
   }
   const Status status = solver_.marginal_covariance(graph_, node, covariance);
-  if (is_ok(status)) *covariance *= variance_factor_;
+  if (!is_ok(status)) return status;
+  if (asked.retired()) {
+    // T = S X and S exp(d) X = S X exp(Ad(X^-1) d).
+    const Mat7 Ad =
+        sim3_adjoint((submaps_[asked.owner].T_node_submap * asked.T_owner_kf).inverse());
+    *covariance = (Ad * *covariance * Ad.transpose()).eval();
+  }
+  *covariance *= variance_factor_;
   return status;
 }
 

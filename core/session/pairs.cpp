@@ -82,7 +82,7 @@ void Session::accept_pair(const TwoViewInput& input, double log_ratio, double mu
   const bool starts = keyframes_[input.i].node < 0;
   if (starts) {
     const int32_t source = keyframes_.pose_source(input.i);
-    start_segment(input.i, source >= 0 ? graph_.pose(keyframes_[source].node) : Sim3());
+    start_segment(input.i, source >= 0 ? keyframe_pose(source) : Sim3());
   }
   if (starts || paper) {
     depth_.load(input.depth_i);

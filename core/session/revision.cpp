@@ -13,6 +13,7 @@ Status Session::update_submap(const SubmapUpdate& update) {
   if (submap.node < 0 || update.T_submap_kf.size() != submap.count) {
     return Status::kInvalidArgument;
   }
+  if (submap.retired) return Status::kOk;
   const double gate = submap.is_loop ? config_.sigma_gate_loop : config_.sigma_gate;
   if (update.center_sigma > gate) {
     LogLine line;
@@ -39,17 +40,29 @@ void Session::update_views(const SubmapUpdate& update, Submap* submap) {
     view.log_rho += update.log_depth_ratio[k];
     depth_.rescale_submap(update.submap, k, std::exp(update.log_depth_ratio[k]));
     if (view.bridge >= 0) {
-      holds(graph_.set_measurement(view.bridge, view_measurement(view)));
+      set_bridge_measurement(view);
       holds(graph_.set_multiplier(view.bridge, submap->multiplier));
     }
     if (view.anchor >= 0) {
-      holds(graph_.set_log_ratio(view.anchor, view.log_rho));
+      const double log_ratio = graph_.edge(view.anchor).log_ratio + update.log_depth_ratio[k];
+      holds(graph_.set_log_ratio(view.anchor, log_ratio));
       holds(graph_.set_multiplier(view.anchor, submap->multiplier));
     }
   }
   // The unit may be another one: the submap's scale follows, so that its origin keyframe stays.
   const double unit = std::exp(-update.log_depth_ratio[submap->origin]);
   holds(graph_.set_pose(submap->node, graph_.pose(submap->node) * Sim3::scaling(unit)));
+}
+
+void Session::set_bridge_measurement(const SubmapView& view) {
+  const Sim3 Z_m_i = view_measurement(view);
+  const int32_t rigid = graph_.edge(view.bridge).Q;
+  if (rigid < 0) {
+    holds(graph_.set_measurement(view.bridge, Z_m_i));
+  } else {
+    const Sim3 T_owner_kf = graph_.measurement(rigid);
+    holds(graph_.set_tie_measurement(view.bridge, Z_m_i, T_owner_kf));
+  }
 }
 
 void Session::update_shared(const SubmapUpdate& update) {

@@ -32,6 +32,21 @@ int64_t factor_blocks(const SessionConfig& config, const SessionCapacity& capaci
   return std::min(keyframe_part + submap_part, dense_factor_blocks(capacity.graph.nodes));
 }
 
+/// Chain edges between windows and in place of loops; edges of loops to retired keyframes have two
+/// measurements.
+void add_skeleton(const SessionConfig& config, SessionCapacity* capacity) {
+  const int32_t w = config.window_size;
+  capacity->live_windows = config.window_submaps + 1;
+  capacity->live_loops = config.max_loops;
+  capacity->skeleton = capacity->windows;
+  capacity->graph.chains = capacity->submaps;
+  capacity->graph.edges += capacity->graph.chains;
+  capacity->graph.measurements += capacity->graph.chains + config.max_loops * w;
+  capacity->condenser.nodes = 2 * w + 2;
+  capacity->condenser.edges = 5 * 2 * w + w + 1;
+  capacity->condenser.measurements = 3 * 2 * w + 2 * w;
+}
+
 }  // namespace
 
 SessionCapacity session_capacity(const SessionConfig& config) {
@@ -51,9 +66,12 @@ SessionCapacity session_capacity(const SessionConfig& config) {
       capacity.keyframes + 2 * capacity.views + capacity.shared + capacity.window_pairs;
   capacity.graph.measurements = capacity.keyframes + capacity.views + 2 * capacity.shared;
 
+  if (config.window_submaps > 0) add_skeleton(config, &capacity);
+
   capacity.solver.nodes = capacity.graph.nodes;
   capacity.solver.edges = capacity.graph.edges;
-  capacity.solver.pairs = capacity.keyframes + capacity.views + capacity.window_pairs;
+  capacity.solver.pairs =
+      capacity.keyframes + capacity.views + capacity.window_pairs + capacity.graph.chains;
   capacity.solver.factor_blocks =
       static_cast<int32_t>(factor_blocks(config, capacity, windows_over_keyframe));
 

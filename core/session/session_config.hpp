@@ -12,8 +12,8 @@
 
 namespace unisim {
 
-inline constexpr int32_t kFactorKinds = 5;
-inline constexpr int32_t kMaxViews = 64;  ///< keyframes of one prediction
+inline constexpr int32_t kFactorKinds = 5;  ///< kinds made of predictions; not kChain
+inline constexpr int32_t kMaxViews = 64;    ///< keyframes of one prediction
 
 /// How measurements enter the graph; numbers of UNISIM_PRESET_*.
 enum class Preset : int32_t {
@@ -47,6 +47,8 @@ struct SessionConfig {
   double scatter_gate = 0.13;
   int32_t lost_after = 3;
   int32_t max_iterations = 10;
+  int32_t window_submaps = 0;
+  int32_t skeleton_capacity = 128;
   LogSink log;
 
   const FactorSetting& factor(FactorKind kind) const { return factors[static_cast<int>(kind)]; }
@@ -60,6 +62,10 @@ struct SessionCapacity {
   int32_t views = 0;         ///< over all submaps
   int32_t shared = 0;        ///< tie edges
   int32_t window_pairs = 0;  ///< pairs of submaps that share keyframes: scale edges
+  int32_t live_windows = 0;  ///< windows with their keyframes in the graph, 0: all of them
+  int32_t live_loops = 0;
+  int32_t skeleton = 0;
+  GraphCapacity condenser;
   GraphCapacity graph;
   SolverCapacity solver;
   DepthBookSize depth;

@@ -25,19 +25,31 @@ Sim3 Session::shared_measurement(const SharedKeyframe& shared) const {
 void Session::add_view_edges(int32_t id) {
   if (broken_) return;
   const Submap& submap = submaps_[id];
-  const EdgeWeight bridge = edge_weight(FactorKind::kBridge, submap.multiplier, submap.is_loop);
-  const EdgeWeight anchor =
-      edge_weight(FactorKind::kScaleAnchor, submap.multiplier, submap.is_loop);
   for (int32_t k = 0; k < submap.count; ++k) {
     SubmapView& view = submaps_.view(submap, k);
-    if (!view.used) continue;
-    const int32_t node = keyframes_[view.keyframe].node;
-    if (config_.factor(FactorKind::kBridge).enabled) {
-      holds(graph_.add_bridge(submap.node, node, view_measurement(view), bridge, &view.bridge));
-    }
-    if (config_.factor(FactorKind::kScaleAnchor).enabled) {
-      holds(graph_.add_scale_anchor(submap.node, node, view.log_rho, anchor, &view.anchor));
-    }
+    if (view.used) attach_view(submap, &view);
+  }
+}
+
+/// A retired keyframe is held through its owner: T_i = S_owner X_i.
+void Session::attach_view(const Submap& submap, SubmapView* view) {
+  const Keyframe& keyframe = keyframes_[view->keyframe];
+  const bool rigid = keyframe.retired();
+  const int32_t node = rigid ? submaps_[keyframe.owner].node : keyframe.node;
+  const Sim3 T_node_kf =
+      rigid ? submaps_[keyframe.owner].T_node_submap * keyframe.T_owner_kf : Sim3();
+  if (config_.factor(FactorKind::kBridge).enabled) {
+    const EdgeWeight weight = edge_weight(FactorKind::kBridge, submap.multiplier, submap.is_loop);
+    const Sim3 Z_m_i = view_measurement(*view);
+    holds(rigid
+              ? graph_.add_rigid_bridge(submap.node, node, Z_m_i, T_node_kf, weight, &view->bridge)
+              : graph_.add_bridge(submap.node, node, Z_m_i, weight, &view->bridge));
+  }
+  if (config_.factor(FactorKind::kScaleAnchor).enabled) {
+    const EdgeWeight weight =
+        edge_weight(FactorKind::kScaleAnchor, submap.multiplier, submap.is_loop);
+    const double log_ratio = rigid ? view->log_rho - std::log(T_node_kf.s) : view->log_rho;
+    holds(graph_.add_scale_anchor(submap.node, node, log_ratio, weight, &view->anchor));
   }
 }
 

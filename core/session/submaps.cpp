@@ -39,6 +39,7 @@ Status Session::add_submap(const SubmapInput& input, bool is_loop, int32_t* id) 
   const int32_t made = submaps_.append(input.keyframes.size());
   Submap& submap = submaps_[made];
   submap.is_loop = is_loop;
+  submap.window_first = answered.first;
   submap.center_sigma = input.center_sigma;
   measure_views(input, is_loop, &submap);
   if (!choose_origin(&submap) || !judge_submap(&submap, made)) {
@@ -53,6 +54,7 @@ Status Session::add_submap(const SubmapInput& input, bool is_loop, int32_t* id) 
   add_shared_edges(made);
   if (!is_loop) keep_shared_depth(input, made, answered);
   count_cover(made);
+  if (config_.window_submaps > 0) retire_surplus(made);
   ++(is_loop ? counts_.loops : counts_.windows);
   if (broken_) return Status::kInternal;
   *id = made;
@@ -65,7 +67,7 @@ void Session::measure_views(const SubmapInput& input, bool is_loop, Submap* subm
   for (int32_t k = 0; k < submap->count; ++k) {
     SubmapView& view = submaps_.view(*submap, k);
     view.keyframe = input.keyframes[k];
-    view.segment = keyframes_[view.keyframe].node >= 0 ? keyframes_[view.keyframe].segment : -1;
+    view.segment = keyframes_[view.keyframe].posed() ? keyframes_[view.keyframe].segment : -1;
     view.T_submap_kf = input.T_submap_kf[k];
     measure_view(input.depth[k], !is_loop, !is_loop, &view);
     if (view.measured) scatters[measured++] = static_cast<float>(view.scatter);
@@ -88,7 +90,8 @@ void Session::measure_view(const DepthMap& depth, bool may_adopt, bool may_share
   }
   if (!may_share || !view->used) return;
   const DepthStore::Source source = depth_.submap_source(view->keyframe);
-  if (source.keyframe < 0 || !depth_.over_submap(view->keyframe, &ratio)) return;
+  const bool kept = source.keyframe >= 0 && !submaps_[source.submap].retired;
+  if (!kept || !depth_.over_submap(view->keyframe, &ratio)) return;
   view->log_c = -ratio.log_ratio;
   view->shared_submap = source.submap;
   view->shared_view = source.view;
@@ -142,7 +145,7 @@ void Session::refuse_submap(bool is_loop) {
 /// S_m = [(s_o / rho_mo) R_o, t_o] of its origin; segments its other views belong to follow.
 void Session::place_submap(Submap* submap) {
   const SubmapView& origin = submaps_.view(*submap, submap->origin);
-  const Sim3& T_world_origin = graph_.pose(keyframes_[origin.keyframe].node);
+  const Sim3 T_world_origin = keyframe_pose(origin.keyframe);
   const Sim3 T_world_submap = T_world_origin * Sim3::scaling(std::exp(-origin.log_rho));
   if (!holds(graph_.add_node(NodeKind::kSubmap, T_world_submap, &submap->node))) return;
   for (int32_t k = 0; k < submap->count; ++k) {
@@ -167,12 +170,12 @@ void Session::join_segment(const Submap& submap, int32_t segment, int32_t into) 
   const SubmapView& view = submaps_.view(submap, best);
   const Sim3 T_world_kf =
       graph_.pose(submap.node) * bridge_measurement(view.T_submap_kf, std::exp(view.log_rho));
-  const Sim3 correction = T_world_kf * graph_.pose(keyframes_[view.keyframe].node).inverse();
+  const Sim3 correction = T_world_kf * keyframe_pose(view.keyframe).inverse();
+  move_retired(segment, correction);
   for (int32_t id = 0; id < submaps_.size(); ++id) {
     const Submap& other = submaps_[id];
-    if (other.node < 0 || other.node == submap.node) continue;
-    const int32_t origin = submaps_.view(other, other.origin).keyframe;
-    if (keyframes_[origin].segment != segment) continue;
+    if (other.node < 0 || other.node == submap.node || !other.own_node) continue;
+    if (segment_of(other) != segment) continue;
     holds(graph_.set_pose(other.node, correction * graph_.pose(other.node)));
   }
   for (int32_t id = 0; id < keyframes_.size(); ++id) {
@@ -187,6 +190,27 @@ void Session::join_segment(const Submap& submap, int32_t segment, int32_t into) 
   line << "segment " << segment << " joined to segment " << into << " at keyframe "
        << view.keyframe;
   line.send(config_.log, LogLevel::kInfo);
+}
+
+int32_t Session::segment_of(const Submap& submap) const {
+  return keyframes_[submaps_.view(submap, submap.origin).keyframe].segment;
+}
+
+/// Retired keyframes go with their owner; where only one of the two belongs to the segment that
+/// moves, the offset between them changes.
+void Session::move_retired(int32_t segment, const Sim3& correction) {
+  for (int32_t id = 0; id < live_from_; ++id) {
+    Keyframe& keyframe = keyframes_[id];
+    if (!keyframe.retired()) continue;
+    const Submap& owner = submaps_[keyframe.owner];
+    const bool moves = keyframe.segment == segment;
+    const bool owner_moves = segment_of(owner) == segment;
+    if (moves == owner_moves) continue;
+    const Sim3 T_world_kf = keyframe_pose(id);
+    const Sim3 T_world_owner = submap_pose(owner);
+    keyframe.T_owner_kf = moves ? between(T_world_owner, correction * T_world_kf)
+                                : between(correction * T_world_owner, T_world_kf);
+  }
 }
 
 /// Keyframes without a pose of their own get the submap's, in the submap's unit.

@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "core/graph/chain.hpp"
 #include "core/graph/relative_pose.hpp"
 #include "core/graph/scale_ratio.hpp"
 
@@ -24,6 +25,22 @@ void add_symmetric(Block& block, double w, const SymmetricBlocks& S) {
     block.at(6, c + 3) += w * S.rs(c);
   }
   block.at(6, 6) += w * S.ss;
+}
+
+// Lower triangle += w M.
+void add_lower(Block& block, double w, const Mat7& M) {
+  for (int c = 0; c < kTangentDim; ++c) {
+    for (int r = c; r < kTangentDim; ++r) block.at(r, c) += w * M(r, c);
+  }
+}
+
+// Block += w H_ba, transposed when its rows are those of a.
+void add_coupling(Block& block, double w, const Mat7& H_ba, bool a_is_later) {
+  for (int c = 0; c < kTangentDim; ++c) {
+    for (int r = 0; r < kTangentDim; ++r) {
+      block.at(r, c) += w * (a_is_later ? H_ba(c, r) : H_ba(r, c));
+    }
+  }
 }
 
 void add_vector(BlockVector& target, double w, const Vec7& g) {
@@ -52,10 +69,16 @@ double NormalEquations::linearize(const Graph& graph, const BlockPattern& patter
   for (int32_t id = 0; id < graph.edge_end(); ++id) {
     const Edge& edge = graph.edge(id);
     if (!edge.active()) continue;
-    cost += is_pose_factor(edge.kind) ? add_pose_edge(graph, pattern, id)
-                                      : add_scale_edge(graph, pattern, id);
+    cost += add_edge(graph, pattern, id);
   }
   return cost;
+}
+
+double NormalEquations::add_edge(const Graph& graph, const BlockPattern& pattern, int32_t id) {
+  const FactorKind kind = graph.edge(id).kind;
+  if (kind == FactorKind::kChain) return add_chain_edge(graph, pattern, id);
+  return is_pose_factor(kind) ? add_pose_edge(graph, pattern, id)
+                              : add_scale_edge(graph, pattern, id);
 }
 
 double NormalEquations::add_pose_edge(const Graph& graph, const BlockPattern& pattern, int32_t id) {
@@ -77,11 +100,30 @@ double NormalEquations::add_pose_edge(const Graph& graph, const BlockPattern& pa
   }
   const EdgeSlot place = pattern.edge_slot(id);
   if (place.slot < 0) return robust.cost;
-  Block& block = off_diagonal_[place.slot];
-  for (int c = 0; c < kTangentDim; ++c) {
-    for (int r = 0; r < kTangentDim; ++r) {
-      block.at(r, c) += w * (place.a_is_later ? normal.H_ba(c, r) : normal.H_ba(r, c));
-    }
+  add_coupling(off_diagonal_[place.slot], w, normal.H_ba, place.a_is_later);
+  return robust.cost;
+}
+
+double NormalEquations::add_chain_edge(const Graph& graph, const BlockPattern& pattern,
+                                       int32_t id) {
+  const Edge& edge = graph.edge(id);
+  ChainNormal normal;
+  chain_normal(graph.pose(edge.a), graph.pose(edge.b), graph.link(edge), &normal);
+  const RobustCost robust = robust_cost(edge.kernel, edge.weight() * normal.u_squared);
+  const double w = edge.weight() * robust.weight;
+  const int32_t a = pattern.column_of_node(edge.a);
+  const int32_t b = pattern.column_of_node(edge.b);
+  if (a >= 0) {
+    add_lower(diagonal_[a], w, normal.H_aa);
+    add_vector(gradient_[a], w, normal.g_a);
+  }
+  if (b >= 0) {
+    add_lower(diagonal_[b], w, normal.H_bb);
+    add_vector(gradient_[b], w, normal.g_b);
+  }
+  const EdgeSlot place = pattern.edge_slot(id);
+  if (place.slot >= 0) {
+    add_coupling(off_diagonal_[place.slot], w, normal.H_ba, place.a_is_later);
   }
   return robust.cost;
 }

@@ -29,6 +29,8 @@ class NormalEquations {
 
  private:
   double add_pose_edge(const Graph& graph, const BlockPattern& pattern, int32_t id);
+  double add_chain_edge(const Graph& graph, const BlockPattern& pattern, int32_t id);
+  double add_edge(const Graph& graph, const BlockPattern& pattern, int32_t id);
   double add_scale_edge(const Graph& graph, const BlockPattern& pattern, int32_t id);
   void clear(const BlockPattern& pattern);
 

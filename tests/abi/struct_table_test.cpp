@@ -22,7 +22,7 @@ AT(unisim_depth_map, confidence, 8);
 AT(unisim_depth_map, width, 16);
 AT(unisim_depth_map, height, 20);
 
-SIZE(unisim_config, 168);
+SIZE(unisim_config, 176);
 AT(unisim_config, struct_size, 0);
 AT(unisim_config, preset, 4);
 AT(unisim_config, window_size, 8);
@@ -50,6 +50,8 @@ AT(unisim_config, lost_after, 144);
 AT(unisim_config, max_iterations, 148);
 AT(unisim_config, log, 152);
 AT(unisim_config, log_user, 160);
+AT(unisim_config, window_submaps, 168);
+AT(unisim_config, skeleton_capacity, 172);
 
 SIZE(unisim_arena_part, 16);
 AT(unisim_arena_part, name, 0);

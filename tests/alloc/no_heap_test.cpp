@@ -19,10 +19,13 @@ TEST_CASE("the counter counts") {
 
 TEST_CASE("a long random session makes no heap call") {
   const auto overlap = GENERATE(2, 8);
+  const auto window_submaps = GENERATE(0, 2);
   unisim_config config;
   REQUIRE(unisim_config_init(&config, sizeof config) == UNISIM_OK);
   config.max_keyframes = 600;
   config.window_overlap = overlap;
+  config.window_submaps = window_submaps;
+  config.skeleton_capacity = 8;
   size_t size = 0;
   REQUIRE(unisim_arena_size(&config, &size) == UNISIM_OK);
   std::unique_ptr<unsigned char[]> arena(new unsigned char[size]);

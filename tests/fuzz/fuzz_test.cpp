@@ -36,6 +36,8 @@ unisim_config config_of(uint32_t seed) {
   config.depth_grid_height = 4 + static_cast<int32_t>(random() % 30);
   config.disabled_factors = random() % 3 == 0 ? random() % 32 : 0;
   config.lost_after = 1 + static_cast<int32_t>(random() % 4);
+  config.skeleton_capacity = random() % 2 == 0 ? 8 : 0;
+  if (random() % 2 == 0) config.window_submaps = 2 + static_cast<int32_t>(random() % 3);
   return config;
 }
 

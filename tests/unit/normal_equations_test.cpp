@@ -19,7 +19,7 @@ namespace {
 
 // Two nodes and one edge; H and g as the solver has them, in the order of nodes a, b.
 struct Pair {
-  Pair() : graph({2, 1, 2}), pattern({2, 1, 1, 3}), equations({2, 1, 1, 3}) {
+  Pair() : graph({2, 1, 2, 1}), pattern({2, 1, 1, 3}), equations({2, 1, 1, 3}) {
     unisim_test::Random random(11);
     A = random.pose(2.0, 2.0, 0.5);
     B = random.pose(2.0, 2.0, 0.5);
@@ -72,6 +72,13 @@ struct Pair {
   Sim3 A, B, P, Q;
   EdgeWeight weight;
 };
+
+Mat7 information(uint32_t seed) {
+  unisim_test::Random random(seed);
+  Mat7 M;
+  for (int k = 0; k < M.size(); ++k) M.data()[k] = random.uniform(-1.0, 1.0);
+  return 10.0 * M * M.transpose() + Mat7::Identity();
+}
 
 }  // namespace
 
@@ -127,4 +134,72 @@ TEST_CASE("suspended edges and fixed ends add nothing of their own") {
   REQUIRE(pair.graph->set_suspended(id, true) == Status::kOk);
   CHECK(pair.linearize() == 0.0);
   CHECK(pair.diagonal(1).norm() == 0.0);
+}
+
+TEST_CASE("a chain edge adds w J' Lambda J and w J' Lambda e") {
+  for (const RobustKernelKind kind :
+       {RobustKernelKind::kNone, RobustKernelKind::kHuber, RobustKernelKind::kGemanMcClure}) {
+    Pair pair;
+    pair.weight.kernel.kind = kind;
+    const ChainLink link = {pair.P, information(3)};
+    int32_t id = -1;
+    REQUIRE(pair.graph->add_chain(0, 1, link, pair.weight, &id) == Status::kOk);
+    const Dense J_a = unisim_test::numeric_jacobian(
+        pair.A, [&](const Sim3& A) { return chain_residual(A, pair.B, pair.P); });
+    const Dense J_b = unisim_test::numeric_jacobian(
+        pair.B, [&](const Sim3& B) { return chain_residual(pair.A, B, pair.P); });
+    const Vec7 e = chain_residual(pair.A, pair.B, pair.P);
+    const RobustCost robust = robust_cost(pair.weight.kernel, 1.5 * e.dot(link.Lambda * e));
+    const Dense L = 1.5 * robust.weight * link.Lambda;
+    const double tolerance = 1e-6 * L.norm();
+    CHECK(pair.linearize() == Approx(robust.cost));
+    CHECK(pair.graph->cost() == Approx(robust.cost));
+    CHECK(pair.graph->edge_norm(id) == Approx(std::sqrt(1.5 * e.dot(link.Lambda * e))));
+    CHECK(difference(pair.diagonal(0), J_a.transpose() * L * J_a) < tolerance);
+    CHECK(difference(pair.diagonal(1), J_b.transpose() * L * J_b) < tolerance);
+    CHECK(difference(pair.off_diagonal(), J_b.transpose() * L * J_a) < tolerance);
+    CHECK(difference(pair.gradient(0), J_a.transpose() * L * e) < tolerance);
+    CHECK(difference(pair.gradient(1), J_b.transpose() * L * e) < tolerance);
+  }
+}
+
+TEST_CASE("a chain edge whose information is the identity is a two-view edge") {
+  Pair chain;
+  Pair two_view;
+  int32_t id = -1;
+  REQUIRE(chain.graph->add_chain(0, 1, {chain.P, Mat7::Identity()}, chain.weight, &id) ==
+          Status::kOk);
+  REQUIRE(two_view.graph->add_two_view(0, 1, two_view.P, two_view.weight, &id) == Status::kOk);
+  CHECK(chain.linearize() == Approx(two_view.linearize()));
+  for (const int32_t node : {0, 1}) {
+    CHECK(difference(chain.diagonal(node), two_view.diagonal(node)) < 1e-12);
+    CHECK(difference(chain.gradient(node), two_view.gradient(node)) < 1e-12);
+  }
+  CHECK(difference(chain.off_diagonal(), two_view.off_diagonal()) < 1e-12);
+}
+
+TEST_CASE("a chain edge wants room and a positive definite information") {
+  Pair pair;
+  int32_t id = -1;
+  ChainLink link = {pair.P, information(3)};
+  link.Lambda(2, 2) = -1.0;
+  CHECK(pair.graph->add_chain(0, 1, link, {}, &id) == Status::kInvalidArgument);
+  link.Lambda = information(3);
+  link.Lambda(1, 0) += 1.0;
+  CHECK(pair.graph->add_chain(0, 1, link, {}, &id) == Status::kInvalidArgument);
+  link.Lambda(1, 0) = std::nan("");
+  CHECK(pair.graph->add_chain(0, 1, link, {}, &id) == Status::kInvalidArgument);
+  link.Lambda = information(3);
+  CHECK(pair.graph->add_chain(0, 0, link, {}, &id) == Status::kInvalidArgument);
+  CarvedGraph no_chains(GraphCapacity{2, 2, 2, 0});
+  int32_t node = -1;
+  REQUIRE(no_chains->add_node(NodeKind::kSubmap, pair.A, &node) == Status::kOk);
+  REQUIRE(no_chains->add_node(NodeKind::kSubmap, pair.B, &node) == Status::kOk);
+  CHECK(no_chains->add_chain(0, 1, link, {}, &id) == Status::kCapacity);
+  CHECK(no_chains->edge_count() == 0);
+  for (int k = 0; k < 3; ++k) {
+    REQUIRE(pair.graph->add_chain(0, 1, link, {}, &id) == Status::kOk);
+    CHECK(pair.graph->add_chain(0, 1, link, {}, &id) == Status::kCapacity);
+    REQUIRE(pair.graph->remove_edge(id) == Status::kOk);
+  }
 }

@@ -134,6 +134,13 @@ typedef struct unisim_config {
   int32_t max_iterations; /**< cap of one unisim_optimize() whose budget says 0 (10) */
   unisim_log_fn log;      /**< NULL: silent */
   void* log_user;         /**< handed to log */
+  int32_t window_submaps; /**< newest windows whose keyframes are optimised, 2..64. Older keyframes
+                               keep the place in their submap that unisim_optimize() last gave them
+                               (call it after each window) and move with it; what joined two
+                               submaps becomes one edge. 0: all of them, the full batch (0) */
+  int32_t skeleton_capacity; /**< with window_submaps: submaps older than that are optimised one by
+                                  one up to this many, 8..65536; beyond, neighbours in time become
+                                  rigid. 0: no limit (128) */
 } unisim_config;
 
 /** Defaults for every field.
@@ -287,7 +294,8 @@ typedef struct unisim_submap_update {
 } unisim_submap_update;
 
 /** Replace the measurement of a submap: poses, depth ratios, quality. Beyond the gate the old one
- *  stays; unisim_get_info() counts that among the refused.
+ *  stays; unisim_get_info() counts that among the refused. A submap that has left the window of
+ *  unisim_config.window_submaps keeps its measurement, whatever comes.
  *  @param session live session
  *  @param[in] update see unisim_submap_update
  *  @return UNISIM_OK (refused for its quality too), UNISIM_ERR_INVALID_ARGUMENT (also: unknown
@@ -423,8 +431,9 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_trajectory(const unisim_ses
 
 /** Marginal covariance of a keyframe pose (7x7, column-major, tangent order), from the last
  *  unisim_optimize(), times its variance of unit weight (2 cost / degrees of freedom). Zero for the
- *  first keyframe of a segment, which is held. Cost: one factorisation for the first keyframe asked
- *  for, one solve with seven right-hand sides for each.
+ *  first keyframe of a segment, which is held. Behind a sliding window it is that of the submap
+ *  that carries the keyframe, zero on the first submap. Cost: one factorisation for the first
+ *  keyframe asked for, one solve with seven right-hand sides for each.
  *  @param session live session
  *  @param keyframe_id as unisim_add_keyframe() gave it
  *  @param[out] covariance 49 values, column-major
