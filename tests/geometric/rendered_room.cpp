@@ -13,7 +13,9 @@ namespace {
 const Eigen::Vector3d kHalfRoom(3.0, 2.0, 3.0);
 
 double lattice(int wall, int u, int v) {
-  auto h = static_cast<std::uint32_t>(u * 73856093 ^ v * 19349663 ^ wall * 83492791);
+  std::uint32_t h = static_cast<std::uint32_t>(u) * 73856093U ^
+                    static_cast<std::uint32_t>(v) * 19349663U ^
+                    static_cast<std::uint32_t>(wall) * 83492791U;
   h ^= h >> 13;
   h *= 0x5bd1e995U;
   h ^= h >> 15;
