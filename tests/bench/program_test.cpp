@@ -110,7 +110,10 @@ TEST_CASE("window prints memory, times and errors") {
   require_times(result.at("update_ms"));
   require_times(result.at("loop_update_ms"));
   CHECK(result.at("ate_m").get<double>() > 0.0);
-  CHECK(result.at("ate_over_batch") == 1.0);
+  CHECK(result.at("ate_over_batch").get<double>() > 0.0);
+  REQUIRE(program.run("window --keyframes 60 --batch off --skeleton-capacity 8 --json") == 0);
+  CHECK(Json::parse(program.out).at("ate_over_batch").is_null());
+  CHECK(Json::parse(program.out).at("skeleton_capacity") == 8);
 }
 
 TEST_CASE("depth prints the time of a ratio by size") {

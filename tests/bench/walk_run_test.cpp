@@ -19,6 +19,7 @@ double mean_ate(WalkSettings settings) {
   double sum = 0.0;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     settings.seed = static_cast<uint64_t>(seed);
+    settings.batch = false;
     sum += run_walk(settings, {}).ate_m;
   }
   return sum / kSeeds;
@@ -52,6 +53,7 @@ TEST_CASE("loops close the rounds of a walk, with false ones among them too") {
   WalkSettings settings;
   settings.keyframes = 600;
   settings.seed = 1;
+  settings.batch = false;
   const WalkResult closed = run_walk(settings, {});
   settings.false_loops = 0.1;
   const WalkResult deceived = run_walk(settings, {});
@@ -62,6 +64,27 @@ TEST_CASE("loops close the rounds of a walk, with false ones among them too") {
   CHECK(open.ate_m > 0.15);
   CHECK(deceived.loops > closed.loops);
   CHECK(deceived.ate_m < 1.25 * closed.ate_m);
+}
+
+TEST_CASE("a sliding window with its skeleton is about as right as the full batch") {
+  WalkSettings settings;
+  settings.keyframes = 600;
+  settings.skeleton_capacity = 0;
+  const WalkResult unlimited = run_walk(settings, {});
+  CHECK(unlimited.ate_over_batch > 0.0);
+  CHECK(unlimited.ate_over_batch < 1.3);
+  settings.skeleton_capacity = 16;
+  const WalkResult merged = run_walk(settings, {});
+  CHECK(merged.ate_m != unlimited.ate_m);
+  CHECK(merged.ate_m < 0.1);
+}
+
+TEST_CASE("the full batch is its own measure, and comparing can be left out") {
+  WalkSettings settings = scan();
+  settings.batch = false;
+  CHECK(run_walk(settings, {}).ate_over_batch == 0.0);
+  settings.window_submaps = 0;
+  CHECK(run_walk(settings, {}).ate_over_batch == 1.0);
 }
 
 TEST_CASE("the same walk gives the same poses") {
@@ -81,6 +104,7 @@ TEST_CASE("times and memory by length of the walk") {
 #endif
     WalkSettings settings;
     settings.keyframes = keyframes;
+    settings.batch = false;
     WalkResult result = run_walk(settings, {});
     REQUIRE_FALSE(result.update_ms.empty());
     std::sort(result.update_ms.begin(), result.update_ms.end());

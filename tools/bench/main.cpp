@@ -53,6 +53,12 @@ void add_window(CLI::App* app, WalkSettings* settings, bool* json) {
       ->check(CLI::Range(0.0, 0.9));
   command->add_option("--iterations", settings->iterations, "after each submap and loop")
       ->check(CLI::PositiveNumber);
+  command->add_option("--window-submaps", settings->window_submaps,
+                      "newest submaps whose keyframes are optimised; 0: the full batch");
+  command->add_option("--skeleton-capacity", settings->skeleton_capacity,
+                      "older submaps that are optimised one by one; 0: no limit");
+  command->add_option("--batch", settings->batch, "on: walk once more as a full batch, to compare")
+      ->transform(on_off());
   command->add_flag("--json", *json, "one line of JSON");
 }
 

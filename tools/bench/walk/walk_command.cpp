@@ -40,6 +40,8 @@ std::vector<double> tail(const std::vector<double>& times) {
 Json result_json(const WalkSettings& settings, const WalkResult& result) {
   return {{"keyframes", result.keyframes},
           {"seed", settings.seed},
+          {"window_submaps", settings.window_submaps},
+          {"skeleton_capacity", settings.skeleton_capacity},
           {"submaps", result.submaps},
           {"submaps_refused", result.submaps_refused},
           {"loops", result.loops},
@@ -52,7 +54,8 @@ Json result_json(const WalkSettings& settings, const WalkResult& result) {
           {"loop_update_tail_ms", times_json(tail(result.loop_update_ms))},
           {"live_ate_m", result.live_ate_m},
           {"ate_m", result.ate_m},
-          {"ate_over_batch", 1.0}};
+          {"ate_over_batch",
+           result.ate_over_batch > 0.0 ? Json(result.ate_over_batch) : Json(nullptr)}};
 }
 
 }  // namespace

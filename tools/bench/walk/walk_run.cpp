@@ -25,6 +25,8 @@ unisim_config config_for(const WalkSettings& settings, size_t loops) {
   }
   config.max_keyframes = settings.keyframes;
   config.max_loops = static_cast<int32_t>(loops);
+  config.window_submaps = settings.window_submaps;
+  config.skeleton_capacity = settings.skeleton_capacity;
   config.depth_grid_width = simulator::kDepthWidth;
   config.depth_grid_height = simulator::kDepthHeight;
   return config;
@@ -141,10 +143,16 @@ WalkResult run_walk(const WalkSettings& settings, const pipeline::HeapWatch& hea
     loops = simulator::with_false_loops(world, simulator::find_loops(world), settings.false_loops,
                                         settings.seed);
   }
-  Walker walker(settings, world, loops, heap);
   const int64_t before = heap.count != nullptr ? heap.count() : 0;
-  WalkResult result = walker.walk();
+  WalkResult result = Walker(settings, world, loops, heap).walk();
   result.heap_calls = heap.count != nullptr ? heap.count() - before : 0;
+  if (settings.window_submaps == 0) {
+    result.ate_over_batch = 1.0;
+  } else if (settings.batch) {
+    WalkSettings batch = settings;
+    batch.window_submaps = 0;
+    result.ate_over_batch = result.ate_m / Walker(batch, world, loops, {}).walk().ate_m;
+  }
   return result;
 }
 

@@ -19,8 +19,11 @@ struct WalkSettings {
   uint64_t seed = 1;
   bool submaps = true;
   bool loops = true;
-  double false_loops = 0.0;  ///< share of all loops, below 1
-  int32_t iterations = 2;    ///< of the optimisation after a submap or loop
+  double false_loops = 0.0;         ///< share of all loops, below 1
+  int32_t iterations = 2;           ///< of the optimisation after a submap or loop
+  int32_t window_submaps = 2;       ///< as in unisim_config; 0: the full batch
+  int32_t skeleton_capacity = 128;  ///< as in unisim_config
+  bool batch = true;                ///< walk once more as a full batch, to compare with
 };
 
 /// Times are process CPU time [ms] of the call that takes the prediction and the optimisation.
@@ -34,8 +37,9 @@ struct WalkResult {
   int64_t heap_calls = 0;  ///< inside the library, after the session was made
   std::vector<double> update_ms;
   std::vector<double> loop_update_ms;
-  double live_ate_m = 0.0;  ///< of the poses as they were first given out
-  double ate_m = 0.0;       ///< RMSE of positions after Sim(3) alignment
+  double live_ate_m = 0.0;      ///< of the poses as they were first given out
+  double ate_m = 0.0;           ///< RMSE of positions after Sim(3) alignment
+  double ate_over_batch = 0.0;  ///< 1 for a full batch itself, 0 when not compared
 };
 
 /// @throws replay::Failure when the session refuses a call
