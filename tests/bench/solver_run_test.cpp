@@ -3,6 +3,7 @@
 #include "tools/bench/solver/solver_run.hpp"
 
 #include <numeric>
+#include <sstream>
 
 #include "tests/support/catch.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -27,19 +28,17 @@ SolverRun solve(const PoseGraph& graph) {
 
 // A square walked twice with measurements that do not quite agree.
 std::string square() {
-  std::string text = "node 0 T 1 0 0 0 1 0 0 0 1\n";
+  std::ostringstream text;
+  text << "node 0 T 1 0 0 0 1 0 0 0 1\n";
   for (int k = 1; k < 8; ++k) {
-    const std::string id = std::to_string(k);
-    text +=
-        "node " + id + " T 0 0 0 " + (k % 2 == 0 ? "0.1" : "-0.1") + " 1 " + id + " 0.2 0 1.1\n";
-    text += "edge v2v " + std::to_string(k - 1) + " " + id +
-            " 1 0.1 0 0 0.70710678 0.70710678 1 0 0.01 1.02\n";
+    text << "node " << k << " T 0 0 0 " << (k % 2 == 0 ? 0.1 : -0.1) << " 1 " << k
+         << " 0.2 0 1.1\n";
+    text << "edge v2v " << k - 1 << ' ' << k << " 1 0.1 0 0 0.70710678 0.70710678 1 0 0.01 1.02\n";
   }
   for (int k = 4; k < 8; ++k) {
-    text += "edge v2v " + std::to_string(k - 4) + " " + std::to_string(k) +
-            " 2 0 0 0 0.01 1 0.02 0 0 1\n";
+    text << "edge v2v " << k - 4 << ' ' << k << " 2 0 0 0 0.01 1 0.02 0 0 1\n";
   }
-  return text;
+  return text.str();
 }
 
 }  // namespace
