@@ -16,7 +16,7 @@ namespace unisim {
 
 struct LmOptions {
   int32_t max_iterations = 10;      ///< accepted and rejected steps together, >= 0
-  double initial_lambda = 1e-4;     ///< damping lambda diag(H), > 0
+  double initial_lambda = 1e-6;     ///< damping lambda diag(H), > 0
   double cost_tolerance = 1e-7;     ///< stop at this relative change of the cost
   double step_tolerance = 1e-7;     ///< stop when no component of the step is larger
   double max_log_scale_step = 1.0;  ///< larger log-scale: the whole step is shortened
