@@ -16,11 +16,31 @@ function(unisim_target_defaults target)
 endfunction()
 
 # unisim_target_freestanding(TARGET): what core and capi add: no exceptions, no RTTI, nothing that
-# would pull in libstdc++ at run time.
+# would pull in libstdc++ at run time, no fused multiply-add, which some processors have and some not.
 function(unisim_target_freestanding target)
   target_compile_options(${target} PRIVATE
-    $<$<COMPILE_LANGUAGE:CXX>:-fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-math-errno>)
+    $<$<COMPILE_LANGUAGE:CXX>:-fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-math-errno
+    -ffp-contract=off>)
   target_compile_definitions(${target} PRIVATE EIGEN_NO_IO EIGEN_MAX_STATIC_ALIGN_BYTES=16)
+endfunction()
+
+# unisim_vectorised_sources(TARGET FILES...): compiles sources of TARGET once more for the wider vectors
+# of x86-64, in the namespace `avx2` (core/base/isa.hpp). Which copy runs is decided at run time.
+function(unisim_vectorised_sources target)
+  include(CheckCXXCompilerFlag)
+  check_cxx_compiler_flag(-mavx2 UNISIM_COMPILER_HAS_AVX2)
+  if(NOT UNISIM_COMPILER_HAS_AVX2)
+    return()
+  endif()
+  foreach(source IN LISTS ARGN)
+    file(RELATIVE_PATH path ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+    set(copy ${CMAKE_CURRENT_BINARY_DIR}/avx2/${source})
+    file(CONFIGURE OUTPUT ${copy} CONTENT "#include \"${path}\"\n")
+    set_source_files_properties(${copy} PROPERTIES
+      COMPILE_OPTIONS -mavx2 COMPILE_DEFINITIONS UNISIM_ISA=avx2)
+    target_sources(${target} PRIVATE ${copy})
+  endforeach()
+  target_compile_definitions(${target} PUBLIC UNISIM_HAS_AVX2)
 endfunction()
 
 # unisim_add_tests(LABEL LIBS...): one Catch2 program from all *.cpp of the calling folder, each test

@@ -4,12 +4,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cstdint>
+
+#include "core/base/tangent_dim.hpp"
 
 namespace unisim {
-
-/// Dimension of the tangent space of Sim(3): translation 3, rotation 3, log-scale 1.
-inline constexpr int kTangentDim = 7;
 
 // Unaligned storage: the layout must not depend on the instruction set a file is compiled for.
 using Vec3 = Eigen::Matrix<double, 3, 1, Eigen::DontAlign>;

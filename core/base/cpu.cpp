@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// What the processor can do beyond what the build takes for granted.
+#include "core/base/cpu.hpp"
+
+namespace unisim {
+
+#if defined(__x86_64__) || defined(__i386__)
+bool cpu_has_avx2() { return __builtin_cpu_supports("avx2") != 0; }
+#else
+bool cpu_has_avx2() { return false; }
+#endif
+
+}  // namespace unisim

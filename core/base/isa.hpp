@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Sources that are compiled once per instruction set, and the choice between them at run time.
+#pragma once
+
+// A vectorised source (cmake: unisim_vectorised_sources) puts all it defines into the namespace
+// UNISIM_ISA. It may not use Eigen, templates of the standard library or inline functions that
+// other files define too: the linker keeps one copy of those, maybe one that an old processor
+// cannot run. Both copies make the same operations in the same order, so the results are the same
+// bits.
+#ifndef UNISIM_ISA
+#define UNISIM_ISA baseline
+#endif
+
+/// Inlined even without optimisation: leaves no symbol behind.
+#define UNISIM_ALWAYS_INLINE inline __attribute__((always_inline))
+
+#ifdef UNISIM_HAS_AVX2
+#include "core/base/cpu.hpp"
+/// Calls a function of a vectorised source, the copy for this processor.
+#define UNISIM_DISPATCH(call) (cpu_has_avx2() ? avx2::call : baseline::call)
+#else
+#define UNISIM_DISPATCH(call) (baseline::call)
+#endif
