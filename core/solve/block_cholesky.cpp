@@ -3,26 +3,33 @@
 #include "core/solve/block_cholesky.hpp"
 
 #include <algorithm>
-#include <cstring>
 
-#include "core/solve/block_kernels.hpp"
+#include "core/solve/supernodal_factor.hpp"
 
 namespace unisim {
 namespace {
 
-constexpr double kPivotFloor = 1e-13;  // of the diagonal element: below it a pivot is roundoff
+// Columns join into one supernode when the blocks of L that this adds as zeros are at most this
+// share of the supernode's: products over longer runs pay for them.
+constexpr double kZeroShare = 0.2;
+
+PlainBlockMatrix plain(const BlockMatrixView& H) {
+  return {H.column_start.data(), H.rows.data(), H.diagonal.data(), H.off_diagonal.data()};
+}
 
 }  // namespace
 
 BlockCholesky::BlockCholesky(Arena& arena, const SolverCapacity& capacity)
     : capacity_(capacity),
-      start_(arena.take<int32_t>(capacity.nodes + 1)),
-      rows_(arena.take<int32_t>(std::max(capacity.factor_blocks - 1, 0))),
-      diagonal_(arena.take<Block>(capacity.nodes)),
-      off_diagonal_(arena.take<Block>(std::max(capacity.factor_blocks - 1, 0))),
-      parent_(arena.take<int32_t>(capacity.nodes)),
+      blocks_(arena.take<Block>(capacity.factor_blocks)),
+      first_column_(arena.take<int32_t>(capacity.nodes + 1)),
+      of_column_(arena.take<int32_t>(capacity.nodes)),
       row_start_(arena.take<int32_t>(capacity.nodes + 1)),
-      row_columns_(arena.take<int32_t>(capacity.pairs)),
+      rows_(arena.take<int32_t>(std::max(capacity.factor_blocks - 1, 0))),
+      block_start_(arena.take<int32_t>(capacity.nodes + 1)),
+      parent_(arena.take<int32_t>(capacity.nodes)),
+      H_start_(arena.take<int32_t>(capacity.nodes + 1)),
+      H_columns_(arena.take<int32_t>(capacity.pairs)),
       first_(arena.take<int32_t>(capacity.nodes)),
       next_(arena.take<int32_t>(capacity.nodes)),
       position_(arena.take<int32_t>(capacity.nodes)),
@@ -31,20 +38,20 @@ BlockCholesky::BlockCholesky(Arena& arena, const SolverCapacity& capacity)
 // Transposes H's pattern and links each column to the first row below it in L (Liu's algorithm).
 void BlockCholesky::find_parents(Span<const int32_t> column_start, Span<const int32_t> rows) {
   const Span<int32_t> ancestor = next_;
-  const Span<int32_t> offset = row_start_.subspan(0, columns_ + 1);
+  const Span<int32_t> offset = H_start_.subspan(0, columns_ + 1);
   offset.fill(0);
   for (const int32_t row : rows) ++offset[row];
   for (int32_t i = 1; i <= columns_; ++i) offset[i] += offset[i - 1];
   for (int32_t column = columns_ - 1; column >= 0; --column) {
     for (int32_t p = column_start[column]; p < column_start[column + 1]; ++p) {
-      row_columns_[--offset[rows[p]]] = column;
+      H_columns_[--offset[rows[p]]] = column;
     }
   }
   for (int32_t row = 0; row < columns_; ++row) {
     parent_[row] = -1;
     ancestor[row] = -1;
     for (int32_t p = offset[row]; p < offset[row + 1]; ++p) {
-      int32_t k = row_columns_[p];
+      int32_t k = H_columns_[p];
       while (k != -1 && k < row) {
         const int32_t above = ancestor[k];
         ancestor[k] = row;
@@ -62,13 +69,61 @@ void BlockCholesky::visit_rows(Visit visit) {
   const Span<int32_t> seen_for = next_;
   for (int32_t row = 0; row < columns_; ++row) {
     seen_for[row] = row;
-    for (int32_t p = row_start_[row]; p < row_start_[row + 1]; ++p) {
-      for (int32_t k = row_columns_[p]; seen_for[k] != row; k = parent_[k]) {
+    for (int32_t p = H_start_[row]; p < H_start_[row + 1]; ++p) {
+      for (int32_t k = H_columns_[p]; seen_for[k] != row; k = parent_[k]) {
         visit(row, k);
         seen_for[k] = row;
       }
     }
   }
+}
+
+// Cuts the columns into supernodes. Column j + 1 joins the run of column j when it is the parent of
+// j: the rows of j lie then among its own, so that the rows of a run are those of its last column.
+// @return blocks of L, the zeros of joined columns included
+int64_t BlockCholesky::choose_supernodes(Span<const int32_t> count, bool relaxed) {
+  const double share = relaxed ? kZeroShare : 0.0;
+  supernodes_ = 0;
+  int64_t total = 0;
+  int64_t own = 0;  // non-zero blocks of the present run
+  for (int32_t j = 0; j < columns_; ++j) {
+    const int64_t column = 1 + count[j];
+    bool joins = false;
+    if (j > 0 && parent_[j - 1] == j) {
+      const int64_t width = j + 1 - first_column_[supernodes_ - 1];
+      const int64_t joined = triangle(static_cast<int32_t>(width)) + width * count[j];
+      joins = static_cast<double>(joined - own - column) <= share * static_cast<double>(joined);
+    }
+    if (!joins) {
+      first_column_[supernodes_++] = j;
+      own = 0;
+    }
+    own += column;
+    of_column_[j] = supernodes_ - 1;
+  }
+  first_column_[supernodes_] = columns_;
+  for (int32_t s = 0; s < supernodes_; ++s) {
+    const int32_t width = first_column_[s + 1] - first_column_[s];
+    total += triangle(width) + static_cast<int64_t>(width) * count[first_column_[s + 1] - 1];
+  }
+  return total;
+}
+
+void BlockCholesky::place_supernodes(Span<const int32_t> count) {
+  row_start_[0] = 0;
+  block_start_[0] = 0;
+  for (int32_t s = 0; s < supernodes_; ++s) {
+    const int32_t width = first_column_[s + 1] - first_column_[s];
+    const int32_t below = count[first_column_[s + 1] - 1];
+    row_start_[s + 1] = row_start_[s] + below;
+    block_start_[s + 1] = block_start_[s] + triangle(width) + width * below;
+  }
+  const Span<int32_t> fill = position_;
+  for (int32_t s = 0; s < supernodes_; ++s) fill[s] = row_start_[s];
+  visit_rows([&](int32_t row, int32_t column) {
+    const int32_t s = of_column_[column];
+    if (column + 1 == first_column_[s + 1]) rows_[fill[s]++] = row;
+  });
 }
 
 Status BlockCholesky::analyze(Span<const int32_t> column_start, Span<const int32_t> rows) {
@@ -79,124 +134,62 @@ Status BlockCholesky::analyze(Span<const int32_t> column_start, Span<const int32
   find_parents(column_start, rows);
   const Span<int32_t> count = first_.subspan(0, columns_);
   count.fill(0);
-  int64_t below = 0;
+  needed_blocks_ = columns_;
   visit_rows([&](int32_t, int32_t column) {
     ++count[column];
-    ++below;
+    ++needed_blocks_;
   });
-  needed_blocks_ = below + columns_;
   if (needed_blocks_ > capacity_.factor_blocks) return Status::kCapacity;
-  start_[0] = 0;
-  for (int32_t j = 0; j < columns_; ++j) start_[j + 1] = start_[j] + count[j];
-  for (int32_t j = 0; j < columns_; ++j) count[j] = start_[j];
-  visit_rows([&](int32_t row, int32_t column) { rows_[count[column]++] = row; });
+  if (choose_supernodes(count, true) > capacity_.factor_blocks) choose_supernodes(count, false);
+  place_supernodes(count);
   return Status::kOk;
+}
+
+Supernodes BlockCholesky::supernodes() const {
+  return {supernodes_,       first_column_.data(), of_column_.data(),
+          row_start_.data(), rows_.data(),         block_start_.data()};
 }
 
 Status BlockCholesky::factorize(const BlockMatrixView& H, double lambda) {
   UNISIM_CHECK(H.diagonal.size() == columns_);
-  bad_column_ = -1;
-  first_.fill(-1);
-  for (int32_t j = 0; j < columns_; ++j) {
-    load_column(H, lambda, j);
-    update_column(j);
-    if (!finish_column(j, H.diagonal[j], lambda)) {
-      bad_column_ = j;
-      return Status::kNumerical;
-    }
-    enlist(j, start_[j]);
-  }
-  return Status::kOk;
-}
-
-void BlockCholesky::load_column(const BlockMatrixView& H, double lambda, int32_t column) {
-  diagonal_[column] = H.diagonal[column];
-  for (int d = 0; d < kTangentDim; ++d) diagonal_[column].at(d, d) *= 1.0 + lambda;
-  const int32_t begin = start_[column];
-  const int32_t end = start_[column + 1];
-  for (int32_t p = begin; p < end; ++p) place_[rows_[p]] = p;
-  // Both row lists ascend: blocks of L that H lacks start at zero.
-  int32_t h = H.column_start[column];
-  const int32_t h_end = H.column_start[column + 1];
-  for (int32_t p = begin; p < end; ++p) {
-    if (h < h_end && H.rows[h] == rows_[p]) {
-      off_diagonal_[p] = H.off_diagonal[h++];
-    } else {
-      std::memset(off_diagonal_[p].v, 0, sizeof(Block));
-    }
-  }
-}
-
-// Subtracts what the earlier columns with a block in row `column` contribute.
-void BlockCholesky::update_column(int32_t column) {
-  int32_t k = first_[column];
-  while (k != -1) {
-    const int32_t following = next_[k];
-    const int32_t at = position_[k];
-    const int32_t end = start_[k + 1];
-    const Block* blocks = off_diagonal_.data();
-    const Block& B = blocks[at];
-    subtract_gram(diagonal_[column], B);
-    for (int32_t p = at + 1; p < end; ++p) {
-      subtract_product(off_diagonal_[place_[rows_[p]]], blocks[p], B);
-    }
-    enlist(k, at + 1);
-    k = following;
-  }
-}
-
-bool BlockCholesky::finish_column(int32_t column, const Block& H_diagonal, double lambda) {
-  double floor[kTangentDim];
-  for (int d = 0; d < kTangentDim; ++d) {
-    floor[d] = kPivotFloor * (1.0 + lambda) * H_diagonal.at(d, d);
-  }
-  Block& L = diagonal_[column];
-  if (!factorize_diagonal(L, floor)) return false;
-  for (int32_t p = start_[column]; p < start_[column + 1]; ++p) solve_right(off_diagonal_[p], L);
-  return true;
-}
-
-// Column waits for the row at `position` of its list, its next one to update.
-void BlockCholesky::enlist(int32_t column, int32_t position) {
-  if (position == start_[column + 1]) return;
-  const int32_t row = rows_[position];
-  position_[column] = position;
-  next_[column] = first_[row];
-  first_[row] = column;
-}
-
-void BlockCholesky::forward(int32_t column, Span<BlockVector> x) const {
-  solve_lower(diagonal_[column], x[column]);
-  for (int32_t p = start_[column]; p < start_[column + 1]; ++p) {
-    subtract_times(x[rows_[p]], off_diagonal_[p], x[column]);
-  }
-}
-
-void BlockCholesky::backward(int32_t column, Span<BlockVector> x) const {
-  for (int32_t p = start_[column]; p < start_[column + 1]; ++p) {
-    subtract_transposed_times(x[column], off_diagonal_[p], x[rows_[p]]);
-  }
-  solve_lower_transposed(diagonal_[column], x[column]);
+  const SupernodeLists lists = {first_.data(), next_.data(), position_.data(), place_.data()};
+  const SupernodalKernels& kernels = UNISIM_DISPATCH(kSupernodal);
+  bad_column_ = kernels.factorize(supernodes(), plain(H), lambda, lists, blocks_.data());
+  return bad_column_ < 0 ? Status::kOk : Status::kNumerical;
 }
 
 void BlockCholesky::solve(Span<BlockVector> x) const {
-  for (int32_t j = 0; j < columns_; ++j) forward(j, x);
-  for (int32_t j = columns_ - 1; j >= 0; --j) backward(j, x);
+  const SupernodalKernels& kernels = UNISIM_DISPATCH(kSupernodal);
+  kernels.forward(supernodes(), blocks_.data(), 0, supernodes_, x.data());
+  kernels.backward(supernodes(), blocks_.data(), 0, supernodes_, x.data());
+}
+
+int32_t BlockCholesky::parent_supernode(int32_t s) const {
+  return row_start_[s] == row_start_[s + 1] ? -1 : of_column_[rows_[row_start_[s]]];
 }
 
 void BlockCholesky::inverse_block(int32_t column, Span<BlockVector> work, Mat7* out) {
-  const Span<int32_t> below = position_;  // the path downwards
-  for (int32_t j = column; parent_[j] != -1; j = parent_[j]) below[parent_[j]] = j;
+  const SupernodalKernels& kernels = UNISIM_DISPATCH(kSupernodal);
+  const Supernodes S = supernodes();
+  const Span<int32_t> child = position_;  // the path downwards
+  const int32_t own = of_column_[column];
+  int32_t root = own;
+  child[own] = -1;
+  for (int32_t s = parent_supernode(own); s != -1; s = parent_supernode(s)) {
+    child[s] = root;
+    root = s;
+  }
   for (int unit = 0; unit < kTangentDim; ++unit) {
-    for (int32_t j = column; j != -1; j = parent_[j]) work[j] = BlockVector{};
-    work[column].v[unit] = 1.0;
-    int32_t root = column;
-    for (int32_t j = column; j != -1; j = parent_[j]) {
-      forward(j, work);
-      root = j;
+    for (int32_t s = root; s != -1; s = child[s]) {
+      for (int32_t j = first_column_[s]; j < first_column_[s + 1]; ++j) work[j] = BlockVector{};
     }
-    for (int32_t j = root; j != column; j = below[j]) backward(j, work);
-    backward(column, work);
+    work[column].v[unit] = 1.0;
+    for (int32_t s = own; s != -1; s = parent_supernode(s)) {
+      kernels.forward(S, blocks_.data(), s, s + 1, work.data());
+    }
+    for (int32_t s = root; s != -1; s = child[s]) {
+      kernels.backward(S, blocks_.data(), s, s + 1, work.data());
+    }
     for (int row = 0; row < kTangentDim; ++row) (*out)(row, unit) = work[column].v[row];
   }
 }

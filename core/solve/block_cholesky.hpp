@@ -5,9 +5,11 @@
 #include <cstdint>
 
 #include "core/base/arena.hpp"
+#include "core/base/eigen_types.hpp"
 #include "core/base/status.hpp"
 #include "core/solve/block.hpp"
 #include "core/solve/solver_capacity.hpp"
+#include "core/solve/supernodes.hpp"
 
 namespace unisim {
 
@@ -20,7 +22,8 @@ struct BlockMatrixView {
   Span<const Block> off_diagonal;    ///< as rows
 };
 
-/// H + lambda diag(H) = L L', left-looking, in the column order of H.
+/// H + lambda diag(H) = L L', supernodal and left-looking, in the column order of H (best a
+/// postorder of the elimination tree: only neighbouring columns can share a supernode).
 ///
 /// analyze() once per structure, factorize() once per matrix, solve() as often as wanted.
 class BlockCholesky {
@@ -28,12 +31,13 @@ class BlockCholesky {
   BlockCholesky() = default;
   BlockCholesky(Arena& arena, const SolverCapacity& capacity);
 
-  /// Elimination tree and column structures of L; time linear in the blocks of L.
+  /// Elimination tree and supernodes of L; time linear in the blocks of L.
   /// @return kOk; kCapacity when H or L has more blocks than declared: needed_blocks() says how
   /// many
   Status analyze(Span<const int32_t> column_start, Span<const int32_t> rows);
 
-  /// Blocks of L, diagonal included, for the structure last handed to analyze().
+  /// Blocks of L, diagonal included, for the structure last handed to analyze(); without those
+  /// that wider supernodes add where there is room.
   int64_t needed_blocks() const { return needed_blocks_; }
 
   /// Numeric factorisation of H + lambda diag(H), same structure as analyzed.
@@ -55,28 +59,29 @@ class BlockCholesky {
   void find_parents(Span<const int32_t> column_start, Span<const int32_t> rows);
   template <class Visit>
   void visit_rows(Visit visit);
-  void load_column(const BlockMatrixView& H, double lambda, int32_t column);
-  void update_column(int32_t column);
-  bool finish_column(int32_t column, const Block& H_diagonal, double lambda);
-  void enlist(int32_t column, int32_t position);
-  void forward(int32_t column, Span<BlockVector> x) const;
-  void backward(int32_t column, Span<BlockVector> x) const;
+  int64_t choose_supernodes(Span<const int32_t> count, bool relaxed);
+  void place_supernodes(Span<const int32_t> count);
+  Supernodes supernodes() const;
+  int32_t parent_supernode(int32_t s) const;
 
   SolverCapacity capacity_;
   int32_t columns_ = 0;
+  int32_t supernodes_ = 0;
   int64_t needed_blocks_ = 0;
   int32_t bad_column_ = -1;
-  Span<int32_t> start_;  // columns + 1 offsets into rows_ and off_diagonal_
-  Span<int32_t> rows_;   // rows of L below the diagonal, ascending in each column
-  Span<Block> diagonal_;
-  Span<Block> off_diagonal_;
-  Span<int32_t> parent_;     // elimination tree
-  Span<int32_t> row_start_;  // H by rows, for the analysis
-  Span<int32_t> row_columns_;
-  Span<int32_t> first_;     // row -> first column that waits to update it
-  Span<int32_t> next_;      // the next one
-  Span<int32_t> position_;  // where in such a column that row is
-  Span<int32_t> place_;     // row -> place in the present column
+  Span<Block> blocks_;
+  Span<int32_t> first_column_;  // by supernode, see Supernodes
+  Span<int32_t> of_column_;
+  Span<int32_t> row_start_;
+  Span<int32_t> rows_;
+  Span<int32_t> block_start_;
+  Span<int32_t> parent_;   // elimination tree of the columns
+  Span<int32_t> H_start_;  // H by rows, for the analysis
+  Span<int32_t> H_columns_;
+  Span<int32_t> first_;  // see SupernodeLists
+  Span<int32_t> next_;
+  Span<int32_t> position_;
+  Span<int32_t> place_;
 };
 
 }  // namespace unisim

@@ -5,13 +5,11 @@
 #include "core/solve/block.hpp"
 
 namespace unisim {
+namespace UNISIM_ISA {
 
 // Doubles the vector unit of this build handles at once. Each element is computed by the same
-// operations in the same order whatever the width; only builds that fuse multiply and add round
-// differently.
-#if defined(__AVX512F__)
-inline constexpr int kLane = 8;
-#elif defined(__AVX__)
+// operations in the same order whatever the width.
+#if defined(__AVX__)
 inline constexpr int kLane = 4;
 #else
 inline constexpr int kLane = 2;
@@ -20,22 +18,28 @@ inline constexpr int kLanes = kBlockRows / kLane;
 
 using Lane = double __attribute__((vector_size(kLane * sizeof(double))));
 
-inline Lane* lanes(double* column) { return reinterpret_cast<Lane*>(column); }
-inline const Lane* lanes(const double* column) { return reinterpret_cast<const Lane*>(column); }
+UNISIM_ALWAYS_INLINE Lane* lanes(double* column) { return reinterpret_cast<Lane*>(column); }
+UNISIM_ALWAYS_INLINE const Lane* lanes(const double* column) {
+  return reinterpret_cast<const Lane*>(column);
+}
 
-/// kColumns columns of C -= A B' from column kFirst on; kLower leaves out lanes above the diagonal.
+/// kColumns columns of C -= sum_k A[k] B[k]' from column kFirst on, over `count` blocks; kLower
+/// leaves out lanes above the diagonal.
 template <int kFirst, int kColumns, bool kLower>
-inline void subtract_product_columns(Block& C, const Block& A, const Block& B) {
+UNISIM_ALWAYS_INLINE void subtract_products_columns(Block& C, const Block* A, const Block* B,
+                                                    int count) {
   constexpr int kSkip = kLower ? kFirst / kLane : 0;
   Lane c[kColumns][kLanes];
   for (int j = 0; j < kColumns; ++j) {
     for (int l = kSkip; l < kLanes; ++l) c[j][l] = lanes(C.v + kBlockRows * (kFirst + j))[l];
   }
-  for (int k = 0; k < kTangentDim; ++k) {
-    const Lane* a = lanes(A.v + kBlockRows * k);
-    const double* b = B.v + kBlockRows * k + kFirst;
-    for (int l = kSkip; l < kLanes; ++l) {
-      for (int j = 0; j < kColumns; ++j) c[j][l] -= a[l] * b[j];
+  for (int block = 0; block < count; ++block) {
+    for (int k = 0; k < kTangentDim; ++k) {
+      const Lane* a = lanes(A[block].v + kBlockRows * k);
+      const double* b = B[block].v + kBlockRows * k + kFirst;
+      for (int l = kSkip; l < kLanes; ++l) {
+        for (int j = 0; j < kColumns; ++j) c[j][l] -= a[l] * b[j];
+      }
     }
   }
   for (int j = 0; j < kColumns; ++j) {
@@ -43,27 +47,27 @@ inline void subtract_product_columns(Block& C, const Block& A, const Block& B) {
   }
 }
 
-/// C -= A B'.
-inline void subtract_product(Block& C, const Block& A, const Block& B) {
+/// C -= sum_k A[k] B[k]' over `count` blocks each.
+UNISIM_ALWAYS_INLINE void subtract_products(Block& C, const Block* A, const Block* B, int count) {
   if constexpr (kLane >= 4) {
-    subtract_product_columns<0, 4, false>(C, A, B);
-    subtract_product_columns<4, 3, false>(C, A, B);
+    subtract_products_columns<0, 4, false>(C, A, B, count);
+    subtract_products_columns<4, 3, false>(C, A, B, count);
   } else {
-    subtract_product_columns<0, 2, false>(C, A, B);
-    subtract_product_columns<2, 2, false>(C, A, B);
-    subtract_product_columns<4, 3, false>(C, A, B);
+    subtract_products_columns<0, 2, false>(C, A, B, count);
+    subtract_products_columns<2, 2, false>(C, A, B, count);
+    subtract_products_columns<4, 3, false>(C, A, B, count);
   }
 }
 
-/// Lower triangle of C -= A A'; above the diagonal C is left with numbers of no meaning.
-inline void subtract_gram(Block& C, const Block& A) {
-  subtract_product_columns<0, 2, true>(C, A, A);
-  subtract_product_columns<2, 2, true>(C, A, A);
-  subtract_product_columns<4, 3, true>(C, A, A);
+/// Lower triangle of C -= sum_k A[k] A[k]'; above the diagonal C is left with numbers of no
+/// meaning.
+UNISIM_ALWAYS_INLINE void subtract_grams(Block& C, const Block* A, int count) {
+  subtract_products_columns<0, 4, true>(C, A, A, count);
+  subtract_products_columns<4, 3, true>(C, A, A, count);
 }
 
 /// C := C L'^-1 for the factor L of a diagonal block as factorize_diagonal() leaves it.
-inline void solve_right(Block& C, const Block& L) {
+UNISIM_ALWAYS_INLINE void solve_right(Block& C, const Block& L) {
   for (int j = 0; j < kTangentDim; ++j) {
     Lane c[kLanes];
     for (int l = 0; l < kLanes; ++l) c[l] = lanes(C.v + kBlockRows * j)[l];
@@ -76,33 +80,84 @@ inline void solve_right(Block& C, const Block& L) {
   }
 }
 
-/// Cholesky factor of the lower triangle of D in place; the diagonal holds the inverses of that of
-/// L.
+/// Lower triangle of D := its Cholesky factor, in place; the diagonal holds the inverses of those
+/// of L. Above the diagonal D is left with numbers of no meaning.
 /// @param floor pivots at or below their floor count as not positive
 /// @return false when a pivot is not positive or not finite
-bool factorize_diagonal(Block& D, const double floor[kTangentDim]);
+UNISIM_ALWAYS_INLINE bool factorize_diagonal(Block& D, const double* floor) {
+  for (int j = 0; j < kTangentDim; ++j) {
+    Lane* column = lanes(D.v + kBlockRows * j);
+    Lane d[kLanes];
+    for (int l = j / kLane; l < kLanes; ++l) d[l] = column[l];
+    for (int k = 0; k < j; ++k) {
+      const double factor = D.at(j, k);
+      for (int l = j / kLane; l < kLanes; ++l) d[l] -= lanes(D.v + kBlockRows * k)[l] * factor;
+    }
+    const double pivot = d[j / kLane][j % kLane];
+    if (!(pivot > floor[j]) || !__builtin_isfinite(pivot)) return false;
+    const double inverse = 1.0 / __builtin_sqrt(pivot);
+    for (int l = j / kLane; l < kLanes; ++l) column[l] = d[l] * inverse;
+    D.at(j, j) = inverse;
+  }
+  return true;
+}
 
-/// x := L^-1 x, x := L'^-1 x for a factor of factorize_diagonal().
-void solve_lower(const Block& L, BlockVector& x);
-void solve_lower_transposed(const Block& L, BlockVector& x);
+/// x := L^-1 x for a factor of factorize_diagonal().
+UNISIM_ALWAYS_INLINE void solve_lower(const Block& L, BlockVector& x) {
+  for (int j = 0; j < kTangentDim; ++j) {
+    x.v[j] *= L.at(j, j);
+    for (int i = j + 1; i < kTangentDim; ++i) x.v[i] -= L.at(i, j) * x.v[j];
+  }
+}
 
-/// y -= A x.
-inline void subtract_times(BlockVector& y, const Block& A, const BlockVector& x) {
+/// x := L'^-1 x for a factor of factorize_diagonal().
+UNISIM_ALWAYS_INLINE void solve_lower_transposed(const Block& L, BlockVector& x) {
+  for (int j = kTangentDim - 1; j >= 0; --j) {
+    double sum = x.v[j];
+    for (int i = j + 1; i < kTangentDim; ++i) sum -= L.at(i, j) * x.v[i];
+    x.v[j] = sum * L.at(j, j);
+  }
+}
+
+/// y -= sum_k A[k] x[k] over `count` blocks.
+UNISIM_ALWAYS_INLINE void subtract_times(BlockVector& y, const Block* A, const BlockVector* x,
+                                         int count) {
   Lane sum[kLanes];
   for (int l = 0; l < kLanes; ++l) sum[l] = lanes(y.v)[l];
-  for (int k = 0; k < kTangentDim; ++k) {
-    for (int l = 0; l < kLanes; ++l) sum[l] -= lanes(A.v + kBlockRows * k)[l] * x.v[k];
+  for (int block = 0; block < count; ++block) {
+    for (int k = 0; k < kTangentDim; ++k) {
+      for (int l = 0; l < kLanes; ++l) {
+        sum[l] -= lanes(A[block].v + kBlockRows * k)[l] * x[block].v[k];
+      }
+    }
   }
   for (int l = 0; l < kLanes; ++l) lanes(y.v)[l] = sum[l];
 }
 
-/// y -= A' x.
-inline void subtract_transposed_times(BlockVector& y, const Block& A, const BlockVector& x) {
-  for (int k = 0; k < kTangentDim; ++k) {
-    double sum = 0.0;
-    for (int r = 0; r < kTangentDim; ++r) sum += A.at(r, k) * x.v[r];
-    y.v[k] -= sum;
-  }
-}
+/// Products A' x of several blocks, summed by column in four parts that are added up at the end, in
+/// one order whatever the width of the vectors.
+struct TransposedSum {
+  static constexpr int kParts = 4 / kLane;
+  Lane part[kTangentDim][kParts];
 
+  UNISIM_ALWAYS_INLINE void clear() {
+    for (int k = 0; k < kTangentDim; ++k) {
+      for (int p = 0; p < kParts; ++p) part[k][p] = Lane{};
+    }
+  }
+  UNISIM_ALWAYS_INLINE void add(const Block& A, const BlockVector& x) {
+    for (int k = 0; k < kTangentDim; ++k) {
+      const Lane* a = lanes(A.v + kBlockRows * k);
+      for (int l = 0; l < kLanes; ++l) part[k][l % kParts] += a[l] * lanes(x.v)[l];
+    }
+  }
+  UNISIM_ALWAYS_INLINE void subtract_from(BlockVector& y) const {
+    for (int k = 0; k < kTangentDim; ++k) {
+      const double* s = reinterpret_cast<const double*>(part[k]);
+      y.v[k] -= (s[0] + s[2]) + (s[1] + s[3]);
+    }
+  }
+};
+
+}  // namespace UNISIM_ISA
 }  // namespace unisim

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sparse block Cholesky against dense Eigen on random graphs; gauge freedom of the whole solver.
+#include "core/solve/block_map.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/unit/core_support.hpp"
 

@@ -4,10 +4,12 @@
 
 #include <limits>
 
+#include "core/solve/block_map.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/unit/core_support.hpp"
 
 using namespace unisim;
+using namespace unisim::baseline;
 using unisim_test::difference;
 
 namespace {
@@ -54,19 +56,19 @@ Dense lower_factor(const Block& factored) {
 
 }  // namespace
 
-TEST_CASE("subtract_product and subtract_gram") {
+TEST_CASE("subtract_products and subtract_grams") {
   unisim_test::Random random(1);
   for (int trial = 0; trial < 20; ++trial) {
     const Block A = random_block(random);
     const Block B = random_block(random);
     Block C = random_block(random);
     const Dense expected = as_matrix(C) - as_matrix(A) * as_matrix(B).transpose();
-    subtract_product(C, A, B);
+    subtract_products(C, &A, &B, 1);
     CHECK(difference(as_matrix(C), expected) < 1e-14);
     CHECK(padding_is_zero(C));
     Block G = positive_block(random);
     const Dense gram = as_matrix(G) - as_matrix(A) * as_matrix(A).transpose();
-    subtract_gram(G, A);
+    subtract_grams(G, &A, 1);
     const Dense lower = (as_matrix(G) - gram).triangularView<Eigen::Lower>();
     CHECK(lower.cwiseAbs().maxCoeff() < 1e-14);
   }
@@ -102,10 +104,13 @@ TEST_CASE("products with vectors") {
   const BlockVector x = random_vector(random);
   BlockVector y = random_vector(random);
   const DenseVector expected = dense(y) - as_matrix(A) * dense(x);
-  subtract_times(y, A, x);
+  subtract_times(y, &A, &x, 1);
   CHECK(difference(dense(y), expected) < 1e-14);
   const DenseVector transposed = dense(y) - as_matrix(A).transpose() * dense(x);
-  subtract_transposed_times(y, A, x);
+  TransposedSum sum;
+  sum.clear();
+  sum.add(A, x);
+  sum.subtract_from(y);
   CHECK(difference(dense(y), transposed) < 1e-14);
   CHECK(y.v[7] == 0.0);
 }

@@ -5,6 +5,7 @@
 #include "core/graph/bridge.hpp"
 #include "core/graph/tie.hpp"
 #include "core/graph/two_view.hpp"
+#include "core/solve/block_map.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/unit/core_support.hpp"
 

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// Numeric phase of the supernodal block Cholesky factorisation; vectorised.
+#include "core/solve/supernodal_factor.hpp"
+
+#include <cstring>
+
+#include "core/solve/block_kernels.hpp"
+
+namespace unisim {
+namespace UNISIM_ISA {
+namespace {
+
+constexpr double kPivotFloor = 1e-13;  // of the diagonal element: below it a pivot is roundoff
+
+// One supernode and its part of L.
+struct Run {
+  UNISIM_ALWAYS_INLINE Run(const Supernodes& S, int32_t s)
+      : first(S.first_column[s]),
+        width(S.first_column[s + 1] - first),
+        row_count(S.row_start[s + 1] - S.row_start[s]),
+        rows(S.rows + S.row_start[s]),
+        offset(S.block_start[s]) {}
+
+  int32_t first;      // column
+  int32_t width;      // columns
+  int32_t row_count;  // below the run
+  const int32_t* rows;
+  int32_t offset;  // of its blocks
+
+  // Blocks of a row: 0 .. width - 1 are those of the triangle, then those below.
+  UNISIM_ALWAYS_INLINE int32_t row_offset(int32_t row) const {
+    return offset + (row < width ? triangle(row) : triangle(width) + (row - width) * width);
+  }
+};
+
+// Puts the columns of H into the run's blocks; blocks that H lacks are zero.
+void load(const Run& J, const PlainBlockMatrix& H, double lambda, int32_t* place, Block* L) {
+  const int32_t blocks = triangle(J.width) + J.row_count * J.width;
+  std::memset(static_cast<void*>(L + J.offset), 0, static_cast<size_t>(blocks) * sizeof(Block));
+  for (int32_t k = 0; k < J.width; ++k) place[J.first + k] = k;
+  for (int32_t r = 0; r < J.row_count; ++r) place[J.rows[r]] = J.width + r;
+  for (int32_t k = 0; k < J.width; ++k) {
+    const int32_t column = J.first + k;
+    Block& diagonal = L[J.row_offset(k) + k];
+    diagonal = H.diagonal[column];
+    for (int d = 0; d < kTangentDim; ++d) diagonal.at(d, d) *= 1.0 + lambda;
+    for (int32_t p = H.column_start[column]; p < H.column_start[column + 1]; ++p) {
+      L[J.row_offset(place[H.rows[p]]) + k] = H.off_diagonal[p];
+    }
+  }
+}
+
+// Subtracts what run K contributes to run J: its rows from `at` on, of which those before `end_at`
+// are columns of J.
+void update(const Run& J, const Run& K, int32_t at, int32_t end_at, const int32_t* place,
+            Block* L) {
+  const Block* below = L + K.offset + triangle(K.width);
+  for (int32_t q = at; q < end_at; ++q) {
+    const int32_t k = place[K.rows[q]];
+    const Block* B = below + q * K.width;
+    subtract_grams(L[J.row_offset(k) + k], B, K.width);
+    for (int32_t p = q + 1; p < K.row_count; ++p) {
+      subtract_products(L[J.row_offset(place[K.rows[p]]) + k], below + p * K.width, B, K.width);
+    }
+  }
+}
+
+// Factorises the run's own columns. @return the column that failed, -1 if none
+int32_t finish(const Run& J, const PlainBlockMatrix& H, double lambda, Block* L) {
+  const int32_t row_end = J.width + J.row_count;
+  for (int32_t k = 0; k < J.width; ++k) {
+    const Block* own = L + J.row_offset(k);
+    Block& diagonal = L[J.row_offset(k) + k];
+    subtract_grams(diagonal, own, k);
+    double floor[kTangentDim];
+    for (int d = 0; d < kTangentDim; ++d) {
+      floor[d] = kPivotFloor * (1.0 + lambda) * H.diagonal[J.first + k].at(d, d);
+    }
+    if (!factorize_diagonal(diagonal, floor)) return J.first + k;
+    for (int32_t row = k + 1; row < row_end; ++row) {
+      Block* blocks = L + J.row_offset(row);
+      subtract_products(blocks[k], blocks, own, k);
+      solve_right(blocks[k], diagonal);
+    }
+  }
+  return -1;
+}
+
+// Run s waits for the supernode that holds its row at `position`.
+void enlist(const Supernodes& S, const SupernodeLists& lists, int32_t s, int32_t position) {
+  if (position == S.row_start[s + 1] - S.row_start[s]) return;
+  const int32_t target = S.of_column[S.rows[S.row_start[s] + position]];
+  lists.position[s] = position;
+  lists.next[s] = lists.first[target];
+  lists.first[target] = s;
+}
+
+void update_from_list(const Supernodes& S, int32_t s, const SupernodeLists& lists, Block* L) {
+  const Run J(S, s);
+  const int32_t column_end = J.first + J.width;
+  for (int32_t k = lists.first[s]; k != -1;) {
+    const int32_t following = lists.next[k];
+    const Run K(S, k);
+    const int32_t at = lists.position[k];
+    int32_t end_at = at + 1;
+    while (end_at < K.row_count && K.rows[end_at] < column_end) ++end_at;
+    update(J, K, at, end_at, lists.place, L);
+    enlist(S, lists, k, end_at);
+    k = following;
+  }
+}
+
+int32_t factorize(const Supernodes& S, const PlainBlockMatrix& H, double lambda,
+                  const SupernodeLists& lists, Block* L) {
+  for (int32_t s = 0; s < S.count; ++s) lists.first[s] = -1;
+  for (int32_t s = 0; s < S.count; ++s) {
+    const Run J(S, s);
+    load(J, H, lambda, lists.place, L);
+    update_from_list(S, s, lists, L);
+    const int32_t failed = finish(J, H, lambda, L);
+    if (failed >= 0) return failed;
+    enlist(S, lists, s, 0);
+  }
+  return -1;
+}
+
+void forward(const Supernodes& S, const Block* L, int32_t begin, int32_t end, BlockVector* x) {
+  for (int32_t s = begin; s < end; ++s) {
+    const Run J(S, s);
+    BlockVector* own = x + J.first;
+    for (int32_t k = 0; k < J.width; ++k) {
+      const Block* row = L + J.row_offset(k);
+      subtract_times(own[k], row, own, k);
+      solve_lower(row[k], own[k]);
+    }
+    const Block* below = L + J.row_offset(J.width);
+    for (int32_t r = 0; r < J.row_count; ++r) {
+      subtract_times(x[J.rows[r]], below + r * J.width, own, J.width);
+    }
+  }
+}
+
+void backward(const Supernodes& S, const Block* L, int32_t begin, int32_t end, BlockVector* x) {
+  for (int32_t s = end - 1; s >= begin; --s) {
+    const Run J(S, s);
+    BlockVector* own = x + J.first;
+    const Block* below = L + J.row_offset(J.width);
+    for (int32_t k = J.width - 1; k >= 0; --k) {
+      TransposedSum sum;
+      sum.clear();
+      for (int32_t r = 0; r < J.row_count; ++r) sum.add(below[r * J.width + k], x[J.rows[r]]);
+      for (int32_t row = k + 1; row < J.width; ++row) sum.add(L[J.row_offset(row) + k], own[row]);
+      sum.subtract_from(own[k]);
+      solve_lower_transposed(L[J.row_offset(k) + k], own[k]);
+    }
+  }
+}
+
+}  // namespace
+
+extern const SupernodalKernels kSupernodal;
+const SupernodalKernels kSupernodal = {factorize, forward, backward};
+
+}  // namespace UNISIM_ISA
+}  // namespace unisim
