@@ -33,13 +33,12 @@ UNISIM_ALWAYS_INLINE void subtract_products_columns(Block& C, const Block* A, co
   for (int j = 0; j < kColumns; ++j) {
     for (int l = kSkip; l < kLanes; ++l) c[j][l] = lanes(C.v + kBlockRows * (kFirst + j))[l];
   }
-  for (int block = 0; block < count; ++block) {
-    for (int k = 0; k < kTangentDim; ++k) {
-      const Lane* a = lanes(A[block].v + kBlockRows * k);
-      const double* b = B[block].v + kBlockRows * k + kFirst;
-      for (int l = kSkip; l < kLanes; ++l) {
-        for (int j = 0; j < kColumns; ++j) c[j][l] -= a[l] * b[j];
-      }
+  // The columns of neighbouring blocks follow each other in memory.
+  const double* a = A->v;
+  const double* b = B->v + kFirst;
+  for (int k = 0; k < kTangentDim * count; ++k, a += kBlockRows, b += kBlockRows) {
+    for (int j = 0; j < kColumns; ++j) {
+      for (int l = kSkip; l < kLanes; ++l) c[j][l] -= lanes(a)[l] * b[j];
     }
   }
   for (int j = 0; j < kColumns; ++j) {
