@@ -2,8 +2,6 @@
 // Linearised cost of a graph.
 #include "core/solve/normal_equations.hpp"
 
-#include <cstring>
-
 #include "core/graph/chain.hpp"
 #include "core/graph/relative_pose.hpp"
 #include "core/graph/scale_ratio.hpp"
@@ -49,111 +47,131 @@ void add_vector(BlockVector& target, double w, const Vec7& g) {
 
 }  // namespace
 
-NormalEquations::NormalEquations(Arena& arena, const SolverCapacity& capacity)
-    : diagonal_(arena.take<Block>(capacity.nodes)),
-      off_diagonal_(arena.take<Block>(capacity.pairs)),
-      gradient_(arena.take<BlockVector>(capacity.nodes)) {}
+/// Columns and blocks an edge adds to; -1 or nullptr: none there.
+struct NormalEquations::Ends {
+  int32_t a;
+  int32_t b;
+  Block* diagonal_a;
+  Block* diagonal_b;
+  Block* coupling;
+  bool a_is_later;
+};
 
-void NormalEquations::clear(const BlockPattern& pattern) {
-  columns_ = pattern.columns();
-  const size_t columns = static_cast<size_t>(columns_);
-  const size_t pairs = static_cast<size_t>(pattern.pairs());
-  std::memset(static_cast<void*>(diagonal_.data()), 0, columns * sizeof(Block));
-  std::memset(static_cast<void*>(off_diagonal_.data()), 0, pairs * sizeof(Block));
-  std::memset(static_cast<void*>(gradient_.data()), 0, columns * sizeof(BlockVector));
+NormalEquations::NormalEquations(Arena& arena, const SolverCapacity& capacity)
+    : gradient_(arena.take<BlockVector>(capacity.nodes)),
+      edge_cost_(arena.take<double>(capacity.edges)) {}
+
+NormalEquations::Ends NormalEquations::ends_of(const Graph& graph, int32_t id) const {
+  const Edge& edge = graph.edge(id);
+  const auto wanted = [&](int32_t node) {
+    const int32_t column = pattern_->column_of_node(node);
+    return column >= 0 && target_.wants(column) ? column : -1;
+  };
+  const auto diagonal = [&](int32_t column) {
+    return column < 0 ? nullptr : target_.blocks + target_.diagonal[column];
+  };
+  Ends ends = {wanted(edge.a), wanted(edge.b), nullptr, nullptr, nullptr, false};
+  ends.diagonal_a = diagonal(ends.a);
+  ends.diagonal_b = diagonal(ends.b);
+  const EdgeSlot place = pattern_->edge_slot(id);
+  ends.a_is_later = place.a_is_later;
+  if (place.slot >= 0 && (place.a_is_later ? ends.b : ends.a) >= 0) {
+    ends.coupling = target_.blocks + target_.off_diagonal[place.slot];
+  }
+  return ends;
 }
 
-double NormalEquations::linearize(const Graph& graph, const BlockPattern& pattern) {
-  clear(pattern);
+double NormalEquations::linearize(const Graph& graph, const BlockPattern& pattern,
+                                  const Assembly& target) {
+  pattern_ = &pattern;
+  target_ = target;
+  columns_ = pattern.columns();
+  bool all = true;
+  for (int32_t column = 0; column < columns_; ++column) {
+    if (target.wants(column)) {
+      gradient_[column] = BlockVector{};
+    } else {
+      all = false;
+    }
+  }
   double cost = 0.0;
   for (int32_t id = 0; id < graph.edge_end(); ++id) {
     const Edge& edge = graph.edge(id);
-    if (!edge.active()) continue;
-    cost += add_edge(graph, pattern, id);
+    if (!edge.active()) {
+      edge_cost_[id] = 0.0;
+      continue;
+    }
+    const int32_t a = pattern.column_of_node(edge.a);
+    const int32_t b = pattern.column_of_node(edge.b);
+    if (all || (a >= 0 && target.wants(a)) || (b >= 0 && target.wants(b))) {
+      edge_cost_[id] = add_edge(graph, id);
+    }
+    cost += edge_cost_[id];
   }
   return cost;
 }
 
-double NormalEquations::add_edge(const Graph& graph, const BlockPattern& pattern, int32_t id) {
+double NormalEquations::add_edge(const Graph& graph, int32_t id) {
   const FactorKind kind = graph.edge(id).kind;
-  if (kind == FactorKind::kChain) return add_chain_edge(graph, pattern, id);
-  return is_pose_factor(kind) ? add_pose_edge(graph, pattern, id)
-                              : add_scale_edge(graph, pattern, id);
+  if (kind == FactorKind::kChain) return add_chain_edge(graph, id);
+  return is_pose_factor(kind) ? add_pose_edge(graph, id) : add_scale_edge(graph, id);
 }
 
-double NormalEquations::add_pose_edge(const Graph& graph, const BlockPattern& pattern, int32_t id) {
+double NormalEquations::add_pose_edge(const Graph& graph, int32_t id) {
   const Edge& edge = graph.edge(id);
   RelativePoseNormal normal;
   relative_pose_normal(graph.pose(edge.a), graph.pose(edge.b), graph.measurement(edge.P),
                        edge.Q < 0 ? nullptr : &graph.measurement(edge.Q), &normal);
   const RobustCost robust = robust_cost(edge.kernel, edge.weight() * normal.e.squaredNorm());
   const double w = edge.weight() * robust.weight;
-  const int32_t a = pattern.column_of_node(edge.a);
-  const int32_t b = pattern.column_of_node(edge.b);
-  if (a >= 0) {
-    add_symmetric(diagonal_[a], w, normal.H_aa);
-    add_vector(gradient_[a], w, normal.g_a);
+  const Ends ends = ends_of(graph, id);
+  if (ends.a >= 0) {
+    add_symmetric(*ends.diagonal_a, w, normal.H_aa);
+    add_vector(gradient_[ends.a], w, normal.g_a);
   }
-  if (b >= 0) {
-    add_symmetric(diagonal_[b], w, normal.H_bb);
-    add_vector(gradient_[b], w, normal.g_b);
+  if (ends.b >= 0) {
+    add_symmetric(*ends.diagonal_b, w, normal.H_bb);
+    add_vector(gradient_[ends.b], w, normal.g_b);
   }
-  const EdgeSlot place = pattern.edge_slot(id);
-  if (place.slot < 0) return robust.cost;
-  add_coupling(off_diagonal_[place.slot], w, normal.H_ba, place.a_is_later);
+  if (ends.coupling != nullptr) add_coupling(*ends.coupling, w, normal.H_ba, ends.a_is_later);
   return robust.cost;
 }
 
-double NormalEquations::add_chain_edge(const Graph& graph, const BlockPattern& pattern,
-                                       int32_t id) {
+double NormalEquations::add_chain_edge(const Graph& graph, int32_t id) {
   const Edge& edge = graph.edge(id);
   ChainNormal normal;
   chain_normal(graph.pose(edge.a), graph.pose(edge.b), graph.link(edge), &normal);
   const RobustCost robust = robust_cost(edge.kernel, edge.weight() * normal.u_squared);
   const double w = edge.weight() * robust.weight;
-  const int32_t a = pattern.column_of_node(edge.a);
-  const int32_t b = pattern.column_of_node(edge.b);
-  if (a >= 0) {
-    add_lower(diagonal_[a], w, normal.H_aa);
-    add_vector(gradient_[a], w, normal.g_a);
+  const Ends ends = ends_of(graph, id);
+  if (ends.a >= 0) {
+    add_lower(*ends.diagonal_a, w, normal.H_aa);
+    add_vector(gradient_[ends.a], w, normal.g_a);
   }
-  if (b >= 0) {
-    add_lower(diagonal_[b], w, normal.H_bb);
-    add_vector(gradient_[b], w, normal.g_b);
+  if (ends.b >= 0) {
+    add_lower(*ends.diagonal_b, w, normal.H_bb);
+    add_vector(gradient_[ends.b], w, normal.g_b);
   }
-  const EdgeSlot place = pattern.edge_slot(id);
-  if (place.slot >= 0) {
-    add_coupling(off_diagonal_[place.slot], w, normal.H_ba, place.a_is_later);
-  }
+  if (ends.coupling != nullptr) add_coupling(*ends.coupling, w, normal.H_ba, ends.a_is_later);
   return robust.cost;
 }
 
-double NormalEquations::add_scale_edge(const Graph& graph, const BlockPattern& pattern,
-                                       int32_t id) {
+double NormalEquations::add_scale_edge(const Graph& graph, int32_t id) {
   const Edge& edge = graph.edge(id);
   const double e = scale_ratio_residual(graph.pose(edge.a), graph.pose(edge.b), edge.log_ratio);
   const RobustCost robust = robust_cost(edge.kernel, edge.weight() * e * e);
   const double w = edge.weight() * robust.weight;
-  const int32_t a = pattern.column_of_node(edge.a);
-  const int32_t b = pattern.column_of_node(edge.b);
-  if (a >= 0) {
-    diagonal_[a].at(kLogScale, kLogScale) += w;
-    gradient_[a].v[kLogScale] -= w * e;
+  const Ends ends = ends_of(graph, id);
+  if (ends.a >= 0) {
+    ends.diagonal_a->at(kLogScale, kLogScale) += w;
+    gradient_[ends.a].v[kLogScale] -= w * e;
   }
-  if (b >= 0) {
-    diagonal_[b].at(kLogScale, kLogScale) += w;
-    gradient_[b].v[kLogScale] += w * e;
+  if (ends.b >= 0) {
+    ends.diagonal_b->at(kLogScale, kLogScale) += w;
+    gradient_[ends.b].v[kLogScale] += w * e;
   }
-  const EdgeSlot place = pattern.edge_slot(id);
-  if (place.slot >= 0) off_diagonal_[place.slot].at(kLogScale, kLogScale) -= w;
+  if (ends.coupling != nullptr) ends.coupling->at(kLogScale, kLogScale) -= w;
   return robust.cost;
-}
-
-BlockMatrixView NormalEquations::H(const BlockPattern& pattern) const {
-  return {pattern.column_start(),
-          pattern.rows(),
-          {diagonal_.data(), pattern.columns()},
-          {off_diagonal_.data(), pattern.pairs()}};
 }
 
 }  // namespace unisim

@@ -22,7 +22,7 @@ struct Supernodes {
   const int32_t* of_column = nullptr;     ///< columns
   const int32_t* row_start = nullptr;     ///< count + 1 offsets into rows
   const int32_t* rows = nullptr;          ///< block rows below each run, ascending
-  const int32_t* block_start = nullptr;   ///< count + 1 offsets of the runs' blocks
+  const int32_t* block_start = nullptr;   ///< where the blocks of each run begin
 };
 
 /// Blocks of a triangle of w block rows: where the rows below it begin.
@@ -34,14 +34,6 @@ struct SupernodeLists {
   int32_t* next;      ///< the next one
   int32_t* position;  ///< which of its rows is the first in the supernode it waits for
   int32_t* place;     ///< block row -> place in the present supernode
-};
-
-/// Lower triangle of a symmetric block matrix as plain arrays: BlockMatrixView without checks.
-struct PlainBlockMatrix {
-  const int32_t* column_start;
-  const int32_t* rows;
-  const Block* diagonal;
-  const Block* off_diagonal;
 };
 
 }  // namespace unisim
