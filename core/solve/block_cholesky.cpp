@@ -179,13 +179,23 @@ void BlockCholesky::mark_all_stale() {
 }
 
 void BlockCholesky::clear_stale() {
+  int32_t begin = 0;  // of a stretch of stale blocks that follow each other
+  int32_t end = 0;
+  const auto clear = [&]() {
+    const size_t bytes = static_cast<size_t>(end - begin) * sizeof(Block);
+    if (bytes > 0) std::memset(static_cast<void*>(&blocks_[begin]), 0, bytes);
+  };
   for (int32_t s = 0; s < supernodes_; ++s) {
     if (stale_[s] == 0) continue;
+    if (block_start_[s] != end) {
+      clear();
+      begin = block_start_[s];
+      end = begin;
+    }
     const int32_t width = first_column_[s + 1] - first_column_[s];
-    const int32_t count = triangle(width) + width * (row_start_[s + 1] - row_start_[s]);
-    std::memset(static_cast<void*>(&blocks_[block_start_[s]]), 0,
-                static_cast<size_t>(count) * sizeof(Block));
+    end += triangle(width) + width * (row_start_[s + 1] - row_start_[s]);
   }
+  clear();
 }
 
 Supernodes BlockCholesky::supernodes() const {

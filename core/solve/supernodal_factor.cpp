@@ -73,7 +73,7 @@ int32_t finish(const Run& J, double lambda, const BlockVector* H_diagonal, Block
     for (int d = 0; d < kTangentDim; ++d) {
       floor[d] = kPivotFloor * (1.0 + lambda) * H_diagonal[J.first + k].v[d];
     }
-    if (!factorize_diagonal(diagonal, floor)) return J.first + k;
+    if (!invert_factor(diagonal, floor)) return J.first + k;
     for (int32_t row = k + 1; row < row_end; ++row) {
       Block* blocks = L + J.row_offset(row);
       subtract_products(blocks[k], blocks, own, k);

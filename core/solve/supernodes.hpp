@@ -16,6 +16,8 @@ namespace unisim {
 ///     row 5   [ b3  b4  b5  ]                        columns of the run is one sweep over memory
 ///     row 7   [ b6  b7  b8  ]
 ///     row 9   [ b9  b10 b11 ]
+///
+/// Once factorised, the diagonal blocks hold L_jj^-1 by rows (block_kernels.hpp).
 struct Supernodes {
   int32_t count = 0;
   const int32_t* first_column = nullptr;  ///< count + 1
