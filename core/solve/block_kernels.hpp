@@ -16,6 +16,9 @@ inline constexpr int kLane = 2;
 #endif
 inline constexpr int kLanes = kBlockRows / kLane;
 
+// Keeps what the loops index in registers.
+#define UNISIM_UNROLL _Pragma("GCC unroll 8")
+
 using Lane = double __attribute__((vector_size(kLane * sizeof(double))));
 
 UNISIM_ALWAYS_INLINE Lane* lanes(double* column) { return reinterpret_cast<Lane*>(column); }
@@ -65,6 +68,11 @@ UNISIM_ALWAYS_INLINE void subtract_grams(Block& C, const Block* A, int count) {
   subtract_products_columns<4, 3, true>(C, A, A, count);
 }
 
+alignas(64) inline constexpr double kUnitRows[kTangentDim][kBlockRows] = {
+    {1, 0, 0, 0, 0, 0, 0, 0}, {0, 1, 0, 0, 0, 0, 0, 0}, {0, 0, 1, 0, 0, 0, 0, 0},
+    {0, 0, 0, 1, 0, 0, 0, 0}, {0, 0, 0, 0, 1, 0, 0, 0}, {0, 0, 0, 0, 0, 1, 0, 0},
+    {0, 0, 0, 0, 0, 0, 1, 0}};
+
 /// D := L^-1 for the Cholesky factor L of D, of which the lower triangle is read. The inverse is
 /// stored by rows, the only block that is: a solve with it is a product, whose elements do not
 /// wait for each other.
@@ -75,29 +83,33 @@ UNISIM_ALWAYS_INLINE bool invert_factor(Block& D, const double* floor) {
   Lane c[kTangentDim][kLanes];
   alignas(64) double M[kTangentDim][kBlockRows];
   double d[kTangentDim];
+  UNISIM_UNROLL
   for (int j = 0; j < kTangentDim; ++j) {
     for (int l = 0; l < kLanes; ++l) c[j][l] = lanes(D.v + kBlockRows * j)[l];
   }
+  UNISIM_UNROLL
   for (int j = 0; j < kTangentDim; ++j) {
     const double pivot = c[j][j / kLane][j % kLane];
     if (!(pivot > floor[j]) || !__builtin_isfinite(pivot)) return false;
     d[j] = pivot;
     const double inverse = 1.0 / pivot;
     for (int l = 0; l < kLanes; ++l) lanes(M[j])[l] = c[j][l] * inverse;
+    UNISIM_UNROLL
     for (int k = j + 1; k < kTangentDim; ++k) {
       for (int l = k / kLane; l < kLanes; ++l) c[k][l] -= c[j][l] * M[j][k];
     }
   }
+  UNISIM_UNROLL
   for (int i = 0; i < kTangentDim; ++i) {
-    alignas(64) double unit[kBlockRows] = {};
-    unit[i] = 1.0;
     Lane row[kLanes];
-    for (int l = 0; l < kLanes; ++l) row[l] = lanes(unit)[l];
+    for (int l = 0; l < kLanes; ++l) row[l] = lanes(kUnitRows[i])[l];
+    UNISIM_UNROLL
     for (int k = 0; k < i; ++k) {
       for (int l = 0; l <= k / kLane; ++l) row[l] -= lanes(D.v + kBlockRows * k)[l] * M[k][i];
     }
     for (int l = 0; l < kLanes; ++l) lanes(D.v + kBlockRows * i)[l] = row[l];
   }
+  UNISIM_UNROLL
   for (int i = 0; i < kTangentDim; ++i) {
     const double scale = 1.0 / __builtin_sqrt(d[i]);
     for (int l = 0; l < kLanes; ++l) lanes(D.v + kBlockRows * i)[l] *= scale;
@@ -107,10 +119,12 @@ UNISIM_ALWAYS_INLINE bool invert_factor(Block& D, const double* floor) {
 
 /// C := C L'^-1 for an inverse of invert_factor().
 UNISIM_ALWAYS_INLINE void solve_right(Block& C, const Block& L_inverse) {
+  UNISIM_UNROLL
   for (int j = kTangentDim - 1; j >= 0; --j) {
     const double* row = L_inverse.v + kBlockRows * j;
     Lane c[kLanes];
     for (int l = 0; l < kLanes; ++l) c[l] = lanes(C.v)[l] * row[0];
+    UNISIM_UNROLL
     for (int k = 1; k <= j; ++k) {
       for (int l = 0; l < kLanes; ++l) c[l] += lanes(C.v + kBlockRows * k)[l] * row[k];
     }
