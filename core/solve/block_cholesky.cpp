@@ -8,13 +8,6 @@
 #include "core/solve/supernodal_factor.hpp"
 
 namespace unisim {
-namespace {
-
-// Columns join into one supernode when the blocks of L that this adds as zeros are at most this
-// share of the supernode's: products over longer runs pay for them.
-constexpr double kZeroShare = 0.2;
-
-}  // namespace
 
 BlockCholesky::BlockCholesky(Arena& arena, const SolverCapacity& capacity)
     : capacity_(capacity),
@@ -79,35 +72,17 @@ void BlockCholesky::visit_rows(Visit visit) {
   }
 }
 
-// Cuts the columns into supernodes. Column j + 1 joins the run of column j when it is the parent of
-// j: the rows of j lie then among its own, so that the rows of a run are those of its last column.
-// @return blocks of L, the zeros of joined columns included
-int64_t BlockCholesky::choose_supernodes(Span<const int32_t> count, bool relaxed) {
-  const double share = relaxed ? kZeroShare : 0.0;
+// Cuts the columns into supernodes: column j joins the run of column j - 1 when it is its parent
+// and has the same rows below. Joining columns that differ a little, by blocks of zeros, does not
+// pay with blocks of this size.
+void BlockCholesky::choose_supernodes(Span<const int32_t> count) {
   supernodes_ = 0;
-  int64_t total = 0;
-  int64_t own = 0;  // non-zero blocks of the present run
   for (int32_t j = 0; j < columns_; ++j) {
-    const int64_t column = 1 + count[j];
-    bool joins = false;
-    if (j > 0 && parent_[j - 1] == j) {
-      const int64_t width = j + 1 - first_column_[supernodes_ - 1];
-      const int64_t joined = triangle(static_cast<int32_t>(width)) + width * count[j];
-      joins = static_cast<double>(joined - own - column) <= share * static_cast<double>(joined);
-    }
-    if (!joins) {
-      first_column_[supernodes_++] = j;
-      own = 0;
-    }
-    own += column;
+    const bool joins = j > 0 && parent_[j - 1] == j && count[j - 1] == count[j] + 1;
+    if (!joins) first_column_[supernodes_++] = j;
     of_column_[j] = supernodes_ - 1;
   }
   first_column_[supernodes_] = columns_;
-  for (int32_t s = 0; s < supernodes_; ++s) {
-    const int32_t width = first_column_[s + 1] - first_column_[s];
-    total += triangle(width) + static_cast<int64_t>(width) * count[first_column_[s + 1] - 1];
-  }
-  return total;
 }
 
 void BlockCholesky::place_supernodes(Span<const int32_t> count) {
@@ -141,7 +116,7 @@ Status BlockCholesky::analyze(Span<const int32_t> column_start, Span<const int32
     ++needed_blocks_;
   });
   if (needed_blocks_ > capacity_.factor_blocks) return Status::kCapacity;
-  if (choose_supernodes(count, true) > capacity_.factor_blocks) choose_supernodes(count, false);
+  choose_supernodes(count);
   place_supernodes(count);
   locate_blocks(column_start, rows);
   mark_all_stale();

@@ -32,8 +32,7 @@ class BlockCholesky {
   /// many
   Status analyze(Span<const int32_t> column_start, Span<const int32_t> rows);
 
-  /// Blocks of L, diagonal included, for the structure last handed to analyze(); without those
-  /// that wider supernodes add where there is room.
+  /// Blocks of L, diagonal included, for the structure last handed to analyze().
   int64_t needed_blocks() const { return needed_blocks_; }
 
   /// H has changed in this column: it and all above it in the tree will be factorised anew.
@@ -71,7 +70,7 @@ class BlockCholesky {
   void find_parents(Span<const int32_t> column_start, Span<const int32_t> rows);
   template <class Visit>
   void visit_rows(Visit visit);
-  int64_t choose_supernodes(Span<const int32_t> count, bool relaxed);
+  void choose_supernodes(Span<const int32_t> count);
   void place_supernodes(Span<const int32_t> count);
   void locate_blocks(Span<const int32_t> column_start, Span<const int32_t> rows);
   Supernodes supernodes() const;
