@@ -81,18 +81,17 @@ NormalEquations::Ends NormalEquations::ends_of(const Graph& graph, int32_t id) c
   return ends;
 }
 
+void NormalEquations::keep(Span<const int32_t> columns) {
+  for (int32_t i = 0; i < columns.size(); ++i) gradient_[i] = gradient_[columns[i]];
+}
+
 double NormalEquations::linearize(const Graph& graph, const BlockPattern& pattern,
                                   const Assembly& target) {
   pattern_ = &pattern;
   target_ = target;
   columns_ = pattern.columns();
-  bool all = true;
   for (int32_t column = 0; column < columns_; ++column) {
-    if (target.wants(column)) {
-      gradient_[column] = BlockVector{};
-    } else {
-      all = false;
-    }
+    if (target.wants(column)) gradient_[column] = BlockVector{};
   }
   double cost = 0.0;
   for (int32_t id = 0; id < graph.edge_end(); ++id) {
@@ -103,7 +102,8 @@ double NormalEquations::linearize(const Graph& graph, const BlockPattern& patter
     }
     const int32_t a = pattern.column_of_node(edge.a);
     const int32_t b = pattern.column_of_node(edge.b);
-    if (all || (a >= 0 && target.wants(a)) || (b >= 0 && target.wants(b))) {
+    const bool between_fixed = a < 0 && b < 0;
+    if (between_fixed || (a >= 0 && target.wants(a)) || (b >= 0 && target.wants(b))) {
       edge_cost_[id] = add_edge(graph, id);
     }
     cost += edge_cost_[id];

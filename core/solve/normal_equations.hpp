@@ -23,6 +23,9 @@ class NormalEquations {
   /// @return cost of the graph, sum of rho(u); edges between two fixed nodes count too
   double linearize(const Graph& graph, const BlockPattern& pattern, const Assembly& target);
 
+  /// The structure has changed: `columns`, former numbers ascending, come first now.
+  void keep(Span<const int32_t> columns);
+
   /// g, one vector per column.
   Span<const BlockVector> gradient() const { return {gradient_.data(), columns_}; }
 
