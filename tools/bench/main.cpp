@@ -9,6 +9,7 @@
 #include "drivers/replay/text_file.hpp"
 #include "tools/bench/depth/depth_command.hpp"
 #include "tools/bench/solver/solver_command.hpp"
+#include "tools/bench/solver/update_command.hpp"
 #include "tools/bench/walk/walk_command.hpp"
 #include "tools/replay/failure.hpp"
 
@@ -31,6 +32,21 @@ void add_solver(CLI::App* app, SolverSettings* settings) {
   command->add_option("--initial-lambda", settings->initial_lambda, "start damping")
       ->check(CLI::PositiveNumber);
   command->add_flag("--json", settings->json, "one line of JSON per run");
+}
+
+void add_updates(CLI::App* app, UpdateSettings* settings) {
+  CLI::App* command =
+      app->add_subcommand("updates", "Live updates of a pose graph that arrives submap by submap");
+  command->add_option("graph", settings->graph, "GRAPH.usg")->required();
+  command->add_option("--from", settings->from, "keyframes there are before an update counts")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--iterations", settings->iterations, "of each update")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--least-move", settings->least_move,
+                   "nodes that would move less stay; 0: everything is computed anew each time")
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--json", settings->json, "one line of JSON");
 }
 
 CLI::CheckedTransformer on_off() {
@@ -76,6 +92,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   SolverSettings solver;
   add_solver(&app, &solver);
+  UpdateSettings updates;
+  add_updates(&app, &updates);
   WalkSettings walk;
   bool walk_json = false;
   add_window(&app, &walk, &walk_json);
@@ -84,6 +102,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     if (app.got_subcommand("window")) return walk_command(walk, walk_json);
+    if (app.got_subcommand("updates")) return update_command(updates);
     if (app.got_subcommand("depth")) return depth_command(depth);
     return solver_command(solver);
   } catch (const CLI::CallForHelp&) {

@@ -23,7 +23,7 @@ EdgeWeight weight_of(const FileEdge& edge) {
   return weight;
 }
 
-Status add_edge(const FileEdge& edge, Graph* graph) {
+Status add(const FileEdge& edge, Graph* graph) {
   int32_t id = -1;
   const EdgeWeight weight = weight_of(edge);
   switch (edge.kind) {
@@ -71,7 +71,7 @@ int32_t needed_factor_blocks(const PoseGraph& source) {
   return static_cast<int32_t>(report.factor_blocks);
 }
 
-Problem::Problem(const PoseGraph& source, int32_t factor_blocks) {
+Problem::Problem(const PoseGraph& source, int32_t factor_blocks, Empty) {
   const int32_t nodes = static_cast<int32_t>(source.nodes.size());
   const int32_t edges = static_cast<int32_t>(source.edges.size());
   const GraphCapacity graph_capacity{nodes, edges, measurements_of(source)};
@@ -83,21 +83,24 @@ Problem::Problem(const PoseGraph& source, int32_t factor_blocks) {
   Arena arena(memory_.data(), memory_.size());
   graph_ = Graph(arena, graph_capacity);
   solver_ = LevenbergMarquardt(arena, solver_capacity);
-  fill(source);
 }
 
-void Problem::fill(const PoseGraph& source) {
-  for (const FileNode& node : source.nodes) {
-    const NodeKind kind = node.submap ? NodeKind::kSubmap : NodeKind::kKeyframe;
-    int32_t id = -1;
-    Status status = graph_.add_node(kind, node.T_world_node, &id);
-    if (is_ok(status)) status = graph_.set_fixed(id, node.fixed);
-    expect_ok(status, "node " + std::to_string(graph_.node_count()) + " of the file");
-  }
-  for (const FileEdge& edge : source.edges) {
-    expect_ok(add_edge(edge, &graph_),
-              "edge " + std::to_string(graph_.edge_count() + 1) + " of the file");
-  }
+Problem::Problem(const PoseGraph& source, int32_t factor_blocks)
+    : Problem(source, factor_blocks, Empty()) {
+  for (const FileNode& node : source.nodes) add_node(node);
+  for (const FileEdge& edge : source.edges) add_edge(edge);
+}
+
+void Problem::add_node(const FileNode& node) {
+  const NodeKind kind = node.submap ? NodeKind::kSubmap : NodeKind::kKeyframe;
+  int32_t id = -1;
+  Status status = graph_.add_node(kind, node.T_world_node, &id);
+  if (is_ok(status)) status = graph_.set_fixed(id, node.fixed);
+  expect_ok(status, "node " + std::to_string(graph_.node_count()) + " of the file");
+}
+
+void Problem::add_edge(const FileEdge& edge) {
+  expect_ok(add(edge, &graph_), "edge " + std::to_string(graph_.edge_count() + 1) + " of the file");
 }
 
 }  // namespace unisim::bench

@@ -18,17 +18,27 @@ int32_t needed_factor_blocks(const PoseGraph& source);
 /// Graph and solver, sized for one pose graph. Nodes have the ids of PoseGraph::nodes.
 class Problem {
  public:
+  /// All of the graph.
   /// @throws replay::Failure when the core refuses the graph
   Problem(const PoseGraph& source, int32_t factor_blocks);
+  /// Room for the graph, but none of it yet.
+  static Problem empty(const PoseGraph& source, int32_t factor_blocks) {
+    return Problem(source, factor_blocks, Empty());
+  }
   Problem(const Problem&) = delete;
   Problem& operator=(const Problem&) = delete;
+
+  /// @throws replay::Failure when the core refuses it
+  void add_node(const FileNode& node);
+  void add_edge(const FileEdge& edge);
 
   Graph& graph() { return graph_; }
   LevenbergMarquardt& solver() { return solver_; }
   size_t arena_bytes() const { return memory_.size(); }
 
  private:
-  void fill(const PoseGraph& source);
+  struct Empty {};
+  Problem(const PoseGraph& source, int32_t factor_blocks, Empty);
 
   std::vector<unsigned char> memory_;
   Graph graph_;

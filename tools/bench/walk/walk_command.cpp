@@ -3,34 +3,15 @@
 #include "tools/bench/walk/walk_command.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <nlohmann/json.hpp>
 
+#include "tools/bench/times.hpp"
 #include "tools/replay/failure.hpp"
 #include "tools/replay/heap_counter.hpp"
 
 namespace unisim::bench {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr size_t kTail = 100;  // updates at the end of the walk that are shown apart
-
-double quantile(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size());
-  const size_t at = static_cast<size_t>(std::max(0.0, std::ceil(place) - 1.0));
-  return std::round(sorted[std::min(at, sorted.size() - 1)] * 1e3) / 1e3;
-}
-
-Json times_json(std::vector<double> times) {
-  if (times.empty()) return {{"n", 0}, {"p50", 0}, {"p95", 0}, {"max", 0}};
-  std::sort(times.begin(), times.end());
-  return {{"n", times.size()},
-          {"p50", quantile(times, 0.5)},
-          {"p95", quantile(times, 0.95)},
-          {"max", quantile(times, 1.0)}};
-}
 
 std::vector<double> tail(const std::vector<double>& times) {
   const size_t count = std::min(kTail, times.size());
@@ -62,13 +43,7 @@ Json result_json(const WalkSettings& settings, const WalkResult& result) {
 
 int walk_command(const WalkSettings& settings, bool json) {
   const Json result = result_json(settings, run_walk(settings, replay::heap_counter()));
-  if (json) {
-    std::printf("%s\n", result.dump().c_str());
-    return replay::kExitDone;
-  }
-  for (const auto& [key, value] : result.items()) {
-    std::printf("%-22s %s\n", key.c_str(), value.dump().c_str());
-  }
+  print_result(result, json);
   return replay::kExitDone;
 }
 
