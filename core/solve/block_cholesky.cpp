@@ -3,6 +3,7 @@
 #include "core/solve/block_cholesky.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "core/solve/supernodal_factor.hpp"
@@ -20,6 +21,8 @@ BlockCholesky::BlockCholesky(Arena& arena, const SolverCapacity& capacity)
       diagonal_(arena.take<int32_t>(capacity.nodes)),
       off_diagonal_(arena.take<int32_t>(capacity.pairs)),
       stale_(arena.take<uint8_t>(capacity.nodes)),
+      fresh_(arena.take<uint8_t>(capacity.nodes)),
+      moves_(arena.take<uint8_t>(capacity.nodes)),
       H_diagonal_(arena.take<BlockVector>(capacity.nodes)),
       kept_column_(arena.take<int32_t>(capacity.nodes)),
       kept_width_(arena.take<int32_t>(capacity.nodes)),
@@ -281,12 +284,33 @@ Status BlockCholesky::factorize(double lambda, Span<BlockVector> x) {
     mark_all_stale();
     return Status::kNumerical;
   }
-  for (int32_t s = 0; s < supernodes_; ++s) stale_[s] = 0;
+  for (int32_t s = 0; s < supernodes_; ++s) {
+    fresh_[s] = stale_[s];
+    stale_[s] = 0;
+  }
   return Status::kOk;
 }
 
 void BlockCholesky::backward(Span<BlockVector> x) const {
   UNISIM_DISPATCH(kSupernodal).backward(supernodes(), blocks_.data(), 0, supernodes_, x.data());
+}
+
+void BlockCholesky::backward(Span<BlockVector> x, double least) {
+  const SupernodalKernels& kernels = UNISIM_DISPATCH(kSupernodal);
+  const Supernodes S = supernodes();
+  for (int32_t s = supernodes_ - 1; s >= 0; --s) {
+    bool reached = fresh_[s] != 0;
+    for (int32_t r = row_start_[s]; !reached && r < row_start_[s + 1]; ++r) {
+      reached = moves_[rows_[r]] != 0;
+    }
+    if (reached) kernels.backward(S, blocks_.data(), s, s + 1, x.data());
+    for (int32_t j = first_column_[s]; j < first_column_[s + 1]; ++j) {
+      if (!reached) x[j] = BlockVector{};
+      double largest = 0.0;
+      for (const double value : x[j].v) largest = std::max(largest, std::abs(value));
+      moves_[j] = largest > least ? 1 : 0;
+    }
+  }
 }
 
 void BlockCholesky::solve(Span<BlockVector> x) const {

@@ -57,7 +57,8 @@ class BlockCholesky {
   /// @return kOk; kNumerical when a pivot is not finite or not above 1e-13 of its diagonal element:
   ///         bad_column() says where; there is no factor then and all columns are stale
   Status factorize(double lambda) { return factorize(lambda, Span<BlockVector>()); }
-  /// factorize(), and x := L^-1 x while L is at hand: backward() completes the solution.
+  /// factorize(), and x := L^-1 x while L is at hand: backward() completes the solution. Where no
+  /// column is stale x is the result of the last time already, with the same right-hand side.
   Status factorize(double lambda, Span<BlockVector> x);
 
   /// Column of the pivot that made factorize() fail, -1 after a success.
@@ -69,6 +70,9 @@ class BlockCholesky {
   void solve(Span<BlockVector> x) const;
   /// x := L'^-1 x. Needs a factor.
   void backward(Span<BlockVector> x) const;
+  /// The same, but x is 0 where the last factorize() found nothing stale and no element of x in the
+  /// rows below is larger than `least`: a change dies out on its way down the tree.
+  void backward(Span<BlockVector> x, double least);
 
   /// Diagonal block of (L L')^-1; touches only the path from the column to the root of the tree.
   /// @param work columns vectors, overwritten
@@ -101,6 +105,8 @@ class BlockCholesky {
   Span<int32_t> diagonal_;  // see Assembly
   Span<int32_t> off_diagonal_;
   Span<uint8_t> stale_;
+  Span<uint8_t> fresh_;  // stale before the last factorisation
+  Span<uint8_t> moves_;  // column -> an element of x is larger than asked for
   Span<BlockVector> H_diagonal_;
   int32_t kept_ = 0;           // supernodes of the last keep()
   Span<int32_t> kept_column_;  // former numbers of their columns

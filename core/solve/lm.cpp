@@ -47,6 +47,7 @@ LevenbergMarquardt::LevenbergMarquardt(Arena& arena, const SolverCapacity& capac
     : pattern_(arena, capacity),
       equations_(arena, capacity),
       cholesky_(arena, capacity),
+      forward_(arena.take<BlockVector>(capacity.nodes)),
       step_(arena.take<BlockVector>(capacity.nodes)),
       saved_(arena.take<Sim3>(capacity.nodes)) {}
 
@@ -98,6 +99,7 @@ bool LevenbergMarquardt::reorder_changed(const Graph& graph) {
   if (2 * kept.columns.size() < pattern_.columns()) return false;
   if (!is_ok(pattern_.rebuild(graph, kept))) return false;
   equations_.keep(kept.columns);
+  for (int32_t i = 0; i < kept.columns.size(); ++i) forward_[i] = forward_[kept.columns[i]];
   return true;
 }
 
@@ -176,16 +178,24 @@ LmStop LevenbergMarquardt::iterate(Graph* graph, const LmOptions& options, LmRep
   return factored ? LmStop::kBudget : LmStop::kNotPositive;
 }
 
+// Factorises H and brings L^-1 (-g) up to date.
+Status LevenbergMarquardt::factorize(double lambda) {
+  const Span<const BlockVector> g = equations_.gradient();
+  const Assembly target = cholesky_.assembly();
+  for (int32_t j = 0; j < pattern_.columns(); ++j) {
+    if (!target.wants(j)) continue;
+    for (int d = 0; d < kBlockRows; ++d) forward_[j].v[d] = -g[j].v[d];
+  }
+  return cholesky_.factorize(lambda, forward_);
+}
+
 bool LevenbergMarquardt::find_step(const LmOptions& options, const LmReport& report) {
   tell(options.observer, LmPhase::kFactorize, report);
-  const Span<BlockVector> step = step_.subspan(0, pattern_.columns());
-  const Span<const BlockVector> g = equations_.gradient();
-  for (int32_t j = 0; j < step.size(); ++j) {
-    for (int d = 0; d < kBlockRows; ++d) step[j].v[d] = -g[j].v[d];
-  }
-  if (!is_ok(cholesky_.factorize(report.lambda, step))) return false;
+  if (!is_ok(factorize(report.lambda))) return false;
   tell(options.observer, LmPhase::kSolve, report);
-  cholesky_.backward(step);
+  const Span<BlockVector> step = step_.subspan(0, pattern_.columns());
+  for (int32_t j = 0; j < step.size(); ++j) step[j] = forward_[j];
+  cholesky_.backward(step, options.least_move);
   tell(options.observer, LmPhase::kStep, report);
   double largest = 0.0;
   double log_scale = 0.0;
@@ -259,7 +269,7 @@ Status LevenbergMarquardt::marginal_covariance(const Graph& graph, int32_t node,
     undamped_revision_ = 0;
     cholesky_.mark_all_stale();
     linearize(graph);
-    status = cholesky_.factorize(0.0);
+    status = factorize(0.0);
     if (!is_ok(status)) return status;
     undamped_revision_ = graph.revision();
   }

@@ -74,6 +74,7 @@ class LevenbergMarquardt {
   Status prepare(const Graph& graph, const LmObserver& observer);
   bool reorder_changed(const Graph& graph);
   LmStop iterate(Graph* graph, const LmOptions& options, LmReport* report);
+  Status factorize(double lambda);
   bool find_step(const LmOptions& options, const LmReport& report);
   double predicted_decrease(double lambda) const;
   bool apply_step(Graph* graph, double least_move);
@@ -83,6 +84,7 @@ class LevenbergMarquardt {
   BlockPattern pattern_;
   NormalEquations equations_;
   BlockCholesky cholesky_;
+  Span<BlockVector> forward_;  // L^-1 (-g)
   Span<BlockVector> step_;
   Span<Sim3> saved_;
   double step_size_ = 0.0;           // largest component of step_

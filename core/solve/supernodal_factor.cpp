@@ -116,6 +116,14 @@ int32_t first_stale_row(const FactorTask& task, int32_t s) {
   return r;
 }
 
+// What the run's part of x takes from its rows, beginning with row `first`.
+void forward_rows(const Run& J, int32_t first, const Block* L, BlockVector* x) {
+  const Block* below = L + J.row_offset(J.width);
+  for (int32_t r = first; r < J.row_count; ++r) {
+    subtract_times(x[J.rows[r]], below + r * J.width, x + J.first, J.width);
+  }
+}
+
 void forward_run(const Run& J, const Block* L, BlockVector* x) {
   BlockVector* own = x + J.first;
   for (int32_t k = 0; k < J.width; ++k) {
@@ -123,10 +131,7 @@ void forward_run(const Run& J, const Block* L, BlockVector* x) {
     subtract_times(own[k], row, own, k);
     solve_lower(row[k], own[k]);
   }
-  const Block* below = L + J.row_offset(J.width);
-  for (int32_t r = 0; r < J.row_count; ++r) {
-    subtract_times(x[J.rows[r]], below + r * J.width, own, J.width);
-  }
+  forward_rows(J, 0, L, x);
 }
 
 void backward_run(const Run& J, const Block* L, BlockVector* x) {
@@ -154,10 +159,12 @@ int32_t factorize(const FactorTask& task) {
       const int32_t failed = finish(J, task.lambda, task.H_diagonal, task.blocks);
       if (failed >= 0) return failed;
       enlist(S, task.lists, s, 0);
+      if (task.x != nullptr) forward_run(J, task.blocks, task.x);
     } else {
-      enlist(S, task.lists, s, first_stale_row(task, s));
+      const int32_t first = first_stale_row(task, s);
+      enlist(S, task.lists, s, first);
+      if (task.x != nullptr) forward_rows(J, first, task.blocks, task.x);
     }
-    if (task.x != nullptr) forward_run(J, task.blocks, task.x);
   }
   return -1;
 }

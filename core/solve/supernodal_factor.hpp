@@ -14,7 +14,9 @@ struct FactorTask {
   double lambda;            ///< damping
   Block* blocks;            ///< H, overwritten by L
   BlockVector* H_diagonal;  ///< columns; [out] the diagonal of H before damping, of stale columns
-  BlockVector* x;           ///< columns; nullptr, or x := L^-1 x on the way, while L is at hand
+  /// Columns, or nullptr: x := L^-1 x on the way, while L is at hand. Where it is not stale x is
+  /// the result of the last time already.
+  BlockVector* x;
 };
 
 /// The numeric phase, one set of functions per instruction set.
