@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Defaults and checks of the configuration.
+// Checks of the configuration.
 #include "drivers/onnx/config.hpp"
 
 #include <algorithm>
 #include <cctype>
-#include <cstring>
 
 #include "drivers/onnx/error.hpp"
 #include "drivers/onnx/memory_use.hpp"
@@ -62,13 +61,3 @@ Config read_config(const unisim_onnx_config& config) {
 }
 
 }  // namespace unisim::onnx
-
-void unisim_onnx_config_init(unisim_onnx_config* config, size_t struct_size) {
-  if (config == nullptr || struct_size < sizeof config->struct_size) return;
-  unisim_onnx_config defaults{};
-  defaults.struct_size = static_cast<uint32_t>(struct_size);
-  defaults.window_size = 16;
-  defaults.keyframe_interval = 5;
-  defaults.min_pose_confidence = 0.75;
-  std::memcpy(config, &defaults, std::min(struct_size, sizeof defaults));
-}

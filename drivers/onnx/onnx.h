@@ -22,6 +22,7 @@ extern "C" {
 #define UNISIM_ONNX_BAD_CONFIG 1 /**< a field of the configuration makes no sense */
 #define UNISIM_ONNX_BAD_MODEL 2  /**< the file is unreadable or breaks the contract */
 #define UNISIM_ONNX_NO_RUNTIME 3 /**< library or provider absent, too old or refused */
+#define UNISIM_ONNX_NOT_BUILT 5  /**< this build was made without the header of ONNX Runtime */
 #define UNISIM_ONNX_NO_MEMORY 4  /**< the smallest inference does not fit the budget */
 
 /** Everything an ONNX predictor is made with. Strings are copied. */
