@@ -22,7 +22,7 @@ include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(OnnxRuntime REQUIRED_VARS OnnxRuntime_INCLUDE_DIR)
 mark_as_advanced(OnnxRuntime_INCLUDE_DIR)
 if(OnnxRuntime_FOUND AND NOT TARGET OnnxRuntime::Headers)
-  add_library(OnnxRuntime::Headers INTERFACE IMPORTED)
+  add_library(OnnxRuntime::Headers INTERFACE IMPORTED GLOBAL)
   set_target_properties(OnnxRuntime::Headers PROPERTIES
     INTERFACE_INCLUDE_DIRECTORIES ${OnnxRuntime_INCLUDE_DIR})
 endif()
