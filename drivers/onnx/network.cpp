@@ -41,6 +41,11 @@ class SessionOptions {
   OrtSessionOptions* options_ = nullptr;
 };
 
+bool is_about_the_file(OrtErrorCode code) {
+  return code == ORT_NO_SUCHFILE || code == ORT_NO_MODEL || code == ORT_INVALID_PROTOBUF ||
+         code == ORT_INVALID_GRAPH;
+}
+
 }  // namespace
 
 Network::Network(std::shared_ptr<const Runtime> runtime, const std::string& path,
@@ -69,13 +74,17 @@ void Network::create(const RunOptions& options) {
   session_options.set(options);
   OrtStatus* status = runtime_->api().CreateSession(&runtime_->env(), path_.c_str(),
                                                     session_options.get(), &session_);
+  if (status == nullptr) return;
+  const bool by_file = is_about_the_file(runtime_->api().GetErrorCode(status));
   const std::string reason = runtime_->take_message(status);
-  if (reason.empty()) return;
-  const std::string advice =
-      options.provider == "cpu"
-          ? "; is the file damaged, or made for a newer ONNX Runtime than "
-          : "; try provider cpu, is the file damaged, or made for a newer ONNX Runtime than ";
-  throw OnnxError(UNISIM_ONNX_BAD_MODEL, path_ + ": " + reason + advice + runtime_->name() + "?");
+  if (options.provider != "cpu" && !by_file) {
+    throw OnnxError(UNISIM_ONNX_NO_RUNTIME, path_ + ": provider " + options.provider + " of " +
+                                                runtime_->name() + ": " + reason +
+                                                "; is its device there? else take provider cpu");
+  }
+  throw OnnxError(UNISIM_ONNX_BAD_MODEL,
+                  path_ + ": " + reason + "; is the file damaged, or made for a newer one than " +
+                      runtime_->name() + "?");
 }
 
 std::vector<TensorInfo> Network::describe(bool inputs) const {
@@ -85,6 +94,7 @@ std::vector<TensorInfo> Network::describe(bool inputs) const {
                          : api.SessionGetOutputCount(session_, &count),
                   UNISIM_ONNX_BAD_MODEL, path_);
   std::vector<TensorInfo> tensors;
+  tensors.reserve(count);
   for (size_t i = 0; i < count; ++i) tensors.push_back(describe_one(inputs, i));
   return tensors;
 }

@@ -17,6 +17,8 @@ Preprocessor::Preprocessor(const Contract& contract, int32_t image_width, int32_
 
 void Preprocessor::resample_row(const uint8_t* pixels, int32_t channels, float* out) const {
   const int32_t width = right_ - left_;
+  const int32_t middle = channels / 2;
+  const int32_t last = channels - 1;
   for (int32_t x = 0; x < width; ++x) {
     const AxisResampler::Taps taps = columns_.taps(x + left_ - framing_.offset_x);
     const uint8_t* pixel = pixels + static_cast<int64_t>(taps.first) * channels;
@@ -24,8 +26,8 @@ void Preprocessor::resample_row(const uint8_t* pixels, int32_t channels, float* 
     for (int32_t k = 0; k < taps.count; ++k, pixel += channels) {
       const float weight = taps.weights[k];
       sums[0] += weight * static_cast<float>(pixel[0]);
-      sums[1] += weight * static_cast<float>(pixel[channels / 2]);
-      sums[2] += weight * static_cast<float>(pixel[channels - 1]);
+      sums[1] += weight * static_cast<float>(pixel[middle]);
+      sums[2] += weight * static_cast<float>(pixel[last]);
     }
     for (int32_t channel = 0; channel < 3; ++channel) out[channel * width + x] = sums[channel];
   }

@@ -33,15 +33,24 @@ std::vector<std::string> available(const Runtime& runtime) {
   runtime.check(runtime.api().GetAvailableProviders(&names, &count), UNISIM_ONNX_NO_RUNTIME,
                 runtime.name());
   std::vector<std::string> found;
+  found.reserve(static_cast<size_t>(count));
   for (int i = 0; i < count; ++i) found.push_back(short_name(names[i]));
   runtime.take_message(runtime.api().ReleaseAvailableProviders(names, count));
   return found;
 }
 
+/// The library has the provider but cannot start it: something of its own is missing.
+void check_start(const Runtime& runtime, OrtStatus* status, const std::string& what) {
+  const std::string reason = runtime.take_message(status);
+  if (reason.empty()) return;
+  throw OnnxError(UNISIM_ONNX_NO_RUNTIME,
+                  what + ": " + reason + "; install what it lacks, or take provider cpu");
+}
+
 void append_cuda(const Runtime& runtime, const RunOptions& options, const std::string& what,
                  OrtSessionOptions* session) {
   OrtCUDAProviderOptionsV2* cuda = nullptr;
-  runtime.check(runtime.api().CreateCUDAProviderOptions(&cuda), UNISIM_ONNX_NO_RUNTIME, what);
+  check_start(runtime, runtime.api().CreateCUDAProviderOptions(&cuda), what);
   const std::string limit = std::to_string(options.memory_bytes);
   const char* const keys[] = {"gpu_mem_limit", "arena_extend_strategy"};
   const char* const values[] = {limit.c_str(), "kSameAsRequested"};
@@ -50,17 +59,16 @@ void append_cuda(const Runtime& runtime, const RunOptions& options, const std::s
     status = runtime.api().SessionOptionsAppendExecutionProvider_CUDA_V2(session, cuda);
   }
   runtime.api().ReleaseCUDAProviderOptions(cuda);
-  runtime.check(status, UNISIM_ONNX_NO_RUNTIME, what);
+  check_start(runtime, status, what);
 }
 
 void append_tensorrt(const Runtime& runtime, const std::string& what, OrtSessionOptions* session) {
   OrtTensorRTProviderOptionsV2* tensorrt = nullptr;
-  runtime.check(runtime.api().CreateTensorRTProviderOptions(&tensorrt), UNISIM_ONNX_NO_RUNTIME,
-                what);
+  check_start(runtime, runtime.api().CreateTensorRTProviderOptions(&tensorrt), what);
   OrtStatus* status =
       runtime.api().SessionOptionsAppendExecutionProvider_TensorRT_V2(session, tensorrt);
   runtime.api().ReleaseTensorRTProviderOptions(tensorrt);
-  runtime.check(status, UNISIM_ONNX_NO_RUNTIME, what);
+  check_start(runtime, status, what);
 }
 
 }  // namespace
@@ -85,9 +93,10 @@ void append_provider(const Runtime& runtime, const RunOptions& options,
     // What TensorRT does not know runs on CUDA, not on the CPU.
     return append_cuda(runtime, options, what, session);
   }
-  runtime.check(runtime.api().SessionOptionsAppendExecutionProvider(session, found->c_str(),
-                                                                    nullptr, nullptr, 0),
-                UNISIM_ONNX_NO_RUNTIME, what);
+  check_start(runtime,
+              runtime.api().SessionOptionsAppendExecutionProvider(session, found->c_str(), nullptr,
+                                                                  nullptr, 0),
+              what);
 }
 
 }  // namespace unisim::onnx

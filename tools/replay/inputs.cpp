@@ -14,7 +14,7 @@
 namespace unisim::replay {
 namespace {
 
-constexpr size_t kLine = 512;
+constexpr size_t kLine = 1024;
 
 int exit_code(int32_t onnx_problem) {
   switch (onnx_problem) {
