@@ -44,7 +44,7 @@ Opened open_model(const std::string& model, const unisim_onnx_config& config = t
 /// Owns its pixels.
 struct Image {
   Image(int32_t width, int32_t height, int32_t channels)
-      : pixels(static_cast<size_t>(width * height * channels)),
+      : pixels(static_cast<size_t>(width) * static_cast<size_t>(height * channels)),
         view{pixels.data(), width, height, width * channels, channels} {}
   uint8_t& at(int32_t x, int32_t y, int32_t channel = 0) {
     return pixels[static_cast<size_t>(y * view.stride + x * view.format + channel)];

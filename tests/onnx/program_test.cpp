@@ -13,6 +13,7 @@
 #include "tests/onnx/predictor_fixture.hpp"
 
 using namespace unisim::testing;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -73,8 +74,9 @@ const Words kResults = {"trajectory.tum", "trajectory_live.tum", "keyframes.csv"
 void require_same_bytes(const std::string& a, const std::string& b) {
   for (const std::string& name : kResults) {
     INFO(name);
-    CHECK(read_file(a + "/" + name) == read_file(b + "/" + name));
-    CHECK_FALSE(read_file(a + "/" + name).empty());
+    const std::string first = read_file((fs::path(a) / name).string());
+    CHECK(first == read_file((fs::path(b) / name).string()));
+    CHECK_FALSE(first.empty());
   }
 }
 
@@ -172,7 +174,7 @@ TEST_CASE("windows are made smaller to fit the memory, in one line") {
 
 TEST_CASE("the oldest ONNX Runtime that is supported gives the same trajectory") {
   UNISIM_SKIP_WITHOUT_RUNTIME();
-  if (!std::filesystem::exists(UNISIM_OLDEST_RUNTIME)) {
+  if (!fs::exists(UNISIM_OLDEST_RUNTIME)) {
     WARN("skipped: no " UNISIM_OLDEST_RUNTIME " (tools/fetch_onnxruntime.sh 1.21.0)");
     return;
   }
