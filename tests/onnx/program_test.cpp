@@ -159,7 +159,7 @@ TEST_CASE("a model that returns NaN once in a while costs these keyframes, no mo
   CHECK(last == "tracking");
 }
 
-TEST_CASE("windows are made smaller to fit the memory, in one line") {
+TEST_CASE("windows are made smaller where the model takes no more views, in one line") {
   UNISIM_SKIP_WITHOUT_RUNTIME();
   const TempFolder folder;
   const ProgramResult result =
