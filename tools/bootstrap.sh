@@ -11,7 +11,7 @@ readonly DEMO_OPTIONS="--scene room --frames 300 --size 640x480 --seed 1 --noise
 readonly PACKAGES="cmake g++ ninja-build pkg-config python3 libeigen3-dev libopencv-dev
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev catch2"
 readonly CONTRIBUTOR_PACKAGES="ccache clang-format-19 clang-tidy-19 shellcheck doxygen
-  python3-numpy chromium"
+  python3-numpy chromium g++-aarch64-linux-gnu qemu-user-static"
 
 usage() {
   cat <<'TEXT'
@@ -19,7 +19,7 @@ usage: tools/bootstrap.sh VERB
   demo     install what is missing, build, render a room, track it, print the error
   test     install what is missing, build, run every test
   build    install what is missing, build into build/release
-  deps     install what is missing
+  deps     install what is missing: packages, and ONNX Runtime into build/onnxruntime
   dev      deps, and what every check needs: formatter, linter, doxygen, browser
   --help   this text
 TEXT
@@ -84,6 +84,22 @@ apt_reason() {
     printf 'this release of the system does not have %s' "$unknown"
   else
     grep -m1 '^E: ' "$1" || tail -n 1 "$1"
+  fi
+}
+
+# ONNX Runtime is for the predictors on networks alone: without it all else is built and tested.
+onnxruntime() {
+  local arch problem
+  arch=$(uname -m)
+  if [ -f build/onnxruntime/include/onnxruntime_c_api.h ] &&
+    [ -e "build/onnxruntime/$arch/lib/libonnxruntime.so.1" ]; then
+    return
+  fi
+  say "fetching ONNX Runtime into build/onnxruntime"
+  # In a shell of its own: what cannot be installed ends only that one.
+  python3 -m pip --version >/dev/null 2>&1 || (install_packages python3-pip) || true
+  if ! problem=$(tools/fetch_onnxruntime.sh 2>&1 >/dev/null); then
+    say "going on without ONNX Runtime, --predictor onnx will not run: $problem"
   fi
 }
 
@@ -165,6 +181,7 @@ main() {
   esac
   # shellcheck disable=SC2086  # lists of words
   install_packages $PACKAGES
+  onnxruntime
   case $verb in
     dev)
       # shellcheck disable=SC2086

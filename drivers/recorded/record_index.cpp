@@ -121,6 +121,12 @@ const char* RecordIndex::add_window(const RecordRef& record, const AlignedBytes&
   const std::size_t id_bytes = static_cast<std::size_t>(window.count) * sizeof ids[0];
   if (record.head.key_bytes < sizeof window + id_bytes) return kShort;
   std::memcpy(ids, key.data() + sizeof window, id_bytes);
+  if (window_size_ == 0) {
+    window_size_ = window.count;
+    window_first_ = ids[0];
+  } else if (window_step_ == 0) {
+    window_step_ = ids[0] - window_first_;
+  }
   answers_[window_question(ids, window.count)].push_back(
       {window.moment, window.status, -1, false, record});
   return nullptr;

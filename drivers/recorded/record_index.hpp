@@ -64,6 +64,10 @@ class RecordIndex {
   /// Answers to a question; NULL when the file does not know it.
   RecordedAnswers* find_answers(const Question& question);
 
+  /// Keyframes of the first window, and from its first keyframe to that of the next; 0: not known.
+  std::int32_t window_size() const { return window_size_; }
+  std::int32_t window_step() const { return window_step_; }
+
   const std::vector<RecordedRevision>& revisions() const { return revisions_; }
   const unisim_predictor_info& info() const { return info_; }
   bool has_frame_poses() const { return has_frame_poses_; }
@@ -88,6 +92,9 @@ class RecordIndex {
   std::map<Question, RecordedAnswers> answers_;
   std::vector<RecordedRevision> revisions_;
   unisim_predictor_info info_{};
+  std::int32_t window_size_ = 0;
+  std::int32_t window_first_ = 0;  // its first keyframe
+  std::int32_t window_step_ = 0;
   bool has_frame_poses_ = false;
   bool complete_ = false;
   std::int64_t record_count_ = 0;

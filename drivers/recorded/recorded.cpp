@@ -291,6 +291,15 @@ const char* recorded_origin(const unisim_predictor* predictor) {
 
 }  // namespace unisim::recorded
 
+int unisim_recorded_windows(const unisim_predictor* recorded, int32_t* size, int32_t* overlap) {
+  const auto& index = static_cast<const unisim::recorded::Recorded*>(recorded)->index;
+  const int32_t shared = index.window_size() - index.window_step();
+  if (index.window_step() <= 0 || shared < 0 || index.window_size() < 2) return 0;
+  *size = index.window_size();
+  *overlap = shared;
+  return 1;
+}
+
 unisim_predictor* unisim_recorded_open(const char* path, char* message, size_t message_size) {
   using namespace unisim::recorded;
   say(message, message_size, "");

@@ -48,6 +48,13 @@ const char* unisim_recorder_problem(const unisim_predictor* recorder);
  *  @return the predictor, NULL when the file is unreadable, damaged or of a newer version */
 unisim_predictor* unisim_recorded_open(const char* path, char* message, size_t message_size);
 
+/** How the windows of a recording follow each other: a session asks for the same ones when its
+ * window_size and window_overlap are these.
+ *  @param recorded of unisim_recorded_open()
+ *  @param[out] size, overlap keyframes
+ *  @return 1; 0 when the file holds fewer than two windows and does not tell */
+int unisim_recorded_windows(const unisim_predictor* recorded, int32_t* size, int32_t* overlap);
+
 /** Name of the predictor that made the answers in the first place: for a recording the one that was
  *  recorded, through a recorder that of the predictor inside, else the predictor's own name.
  *  @param predictor any predictor

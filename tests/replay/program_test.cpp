@@ -103,9 +103,7 @@ TEST_CASE("bad usage is one line and exit code 2") {
 TEST_CASE("what is not built yet is refused, not ignored") {
   const TempFolder folder;
   const std::string out = folder / "out";
-  const std::vector<std::vector<std::string>> wanted = {
-      {"--predictor", "onnx"},  {"--model", "m.onnx"}, {"--model-2v", "m.onnx"},
-      {"--model-mv", "m.onnx"}, {"--lcm", "udpm://"},  {"--format", "lcm"}};
+  const std::vector<std::vector<std::string>> wanted = {{"--lcm", "udpm://"}, {"--format", "lcm"}};
   for (const std::vector<std::string>& option : wanted) {
     require_failure(run_replay(with({"somewhere", "--out", out}, option)), 2, "not built yet");
   }

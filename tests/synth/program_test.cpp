@@ -124,6 +124,9 @@ TEST_CASE("bad usage is one line that names the option, and exit code 2") {
                                                 {"--fps 0", "--fps"},
                                                 {"--loops -7", "--loops"},
                                                 {"--radial 3", "--radial"},
+                                                {"--encode --noise", "--encode"},
+                                                {"--unit-spread 0.3", "--unit-spread"},
+                                                {"--encode --unit-spread 1", "--unit-spread"},
                                                 {"--unknown", "--unknown"}}));
   const Run run = synth(out + " " + arguments);
   CAPTURE(arguments, run.errors);

@@ -5,22 +5,54 @@
 #include <filesystem>
 
 #include "drivers/geometric/geometric.h"
+#include "drivers/onnx/onnx.h"
 #include "drivers/recorded/recorded.h"
 #include "drivers/replay/sequence.h"
 #include "tools/replay/failure.hpp"
+#include "tools/replay/window_layout.hpp"
 
 namespace unisim::replay {
 namespace {
 
-constexpr size_t kLine = 512;
+constexpr size_t kLine = 1024;
 
-PredictorPtr open_inner(const Options& options, std::string* note) {
+int exit_code(int32_t onnx_problem) {
+  switch (onnx_problem) {
+    case UNISIM_ONNX_BAD_MODEL:
+      return kExitInput;
+    case UNISIM_ONNX_NO_RUNTIME:
+    case UNISIM_ONNX_NO_MEMORY:
+      return kExitLimit;
+    default:
+      return kExitUsage;
+  }
+}
+
+PredictorPtr open_onnx(const Options& options, std::vector<std::string>* notes) {
+  unisim_onnx_config config = options.settings.onnx;
+  config.window_size = options.settings.session.window_size;
+  config.model_pair = options.model_pair.c_str();
+  config.model_window = options.model_window.c_str();
+  config.provider = options.provider.c_str();
+  config.library = options.onnx_runtime.c_str();
+  char message[kLine] = "";
+  int32_t problem = UNISIM_ONNX_OK;
+  PredictorPtr predictor(unisim_onnx_create(&config, &problem, message, sizeof message));
+  if (predictor == nullptr) throw Failure(exit_code(problem), message);
+  for (int32_t i = 0; unisim_onnx_note(predictor.get(), i) != nullptr; ++i) {
+    notes->emplace_back(unisim_onnx_note(predictor.get(), i));
+  }
+  return predictor;
+}
+
+PredictorPtr open_inner(const Options& options, std::vector<std::string>* notes) {
+  if (options.predictor == "onnx") return open_onnx(options, notes);
   char message[kLine] = "";
   if (options.predictor == "recorded") {
     PredictorPtr predictor(
         unisim_recorded_open(options.predictions.c_str(), message, sizeof message));
     if (predictor == nullptr) throw Failure(kExitInput, message);
-    *note = message;
+    notes->emplace_back(message);
     return predictor;
   }
   PredictorPtr predictor(
@@ -45,8 +77,10 @@ SourcePtr open_sequence(const Options& options, std::string* note) {
   return source;
 }
 
-PredictorPtr open_predictor(const Options& options, std::string* note) {
-  PredictorPtr inner = open_inner(options, note);
+PredictorPtr open_predictor(const Options& options, Settings* settings,
+                            std::vector<std::string>* notes) {
+  PredictorPtr inner = open_inner(options, notes);
+  fit_windows(options.predictor, inner.get(), settings);
   if (options.record.empty()) return inner;
   std::error_code ignored;
   if (!options.force && std::filesystem::is_regular_file(options.record, ignored)) {

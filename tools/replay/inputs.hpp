@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "drivers/predictor.h"
 #include "drivers/source.h"
@@ -23,8 +24,10 @@ using PredictorPtr = std::unique_ptr<unisim_predictor, Destroy>;
 SourcePtr open_sequence(const Options& options, std::string* note);
 
 /// The predictor asked for, inside a recorder where --record asks for one. Throws Failure.
-/// @param note one line worth telling, "" if none
-PredictorPtr open_predictor(const Options& options, std::string* note);
+/// @param[in,out] settings its windows are fitted to what the predictor can give
+/// @param[out]    notes    lines worth telling
+PredictorPtr open_predictor(const Options& options, Settings* settings,
+                            std::vector<std::string>* notes);
 
 /// Why recording stopped, "" while all is well or nothing is recorded.
 std::string recorder_problem(const Options& options, const unisim_predictor* predictor);

@@ -10,6 +10,7 @@
 
 #include "tools/replay/failure.hpp"
 #include "tools/replay/version.hpp"
+#include "tools/replay/window_layout.hpp"
 
 namespace unisim::replay {
 namespace {
@@ -23,10 +24,6 @@ const std::map<std::string, uint32_t> kFactors = {
     {"v2s", UNISIM_FACTOR_BRIDGE | UNISIM_FACTOR_SCALE_ANCHOR},
     {"s2s", UNISIM_FACTOR_TIE | UNISIM_FACTOR_SCALE}};
 
-// Windows cut from running tracks cost little, and more of them hold the map together better: ATE
-// on 500 frames of redkitchen 0.0077 m with overlap 2, 0.0069 with 8, 0.0068 with 12.
-constexpr int32_t kTrackedOverlap = 8;
-
 /// What the command line says, before it meets the configuration file.
 struct Given {
   std::string config;
@@ -38,7 +35,10 @@ struct Given {
   bool every_frame = false;
   bool realtime = false;
   bool no_loop = false;
-  std::string model, model_pair, model_window, lcm;
+  std::string model;
+  std::optional<int32_t> threads;
+  std::optional<int32_t> memory_mb;
+  std::string lcm;
 };
 
 void add_input_options(CLI::App* app, Options* options, Given* given) {
@@ -57,7 +57,7 @@ void add_input_options(CLI::App* app, Options* options, Given* given) {
 }
 
 void add_method_options(CLI::App* app, Options* options, Given* given) {
-  app->add_option("--predictor", options->predictor, "geometric or recorded")
+  app->add_option("--predictor", options->predictor, "geometric, onnx or recorded")
       ->check(CLI::IsMember({"geometric", "recorded", "onnx"}));
   app->add_option("--predictions", options->predictions, "file written by --record");
   app->add_option("--record", options->record, "store every prediction in this file");
@@ -66,7 +66,7 @@ void add_method_options(CLI::App* app, Options* options, Given* given) {
   app->add_flag("--every-frame", given->every_frame, "also pose the frames between keyframes");
   app->add_option("--window", given->window, "keyframes of a submap (default: 16)");
   app->add_option("--overlap", given->overlap,
-                  "keyframes shared by neighbouring submaps (default: 8)");
+                  "keyframes shared by neighbouring submaps (default: 8; of networks 2)");
   app->add_option("--config", given->config, "TOML file, see --print-config");
   app->add_flag("--print-config", options->print_config, "print the effective configuration, end");
   app->add_flag("--no-loop", given->no_loop, "close no loops (none are closed in this version)");
@@ -75,10 +75,27 @@ void add_method_options(CLI::App* app, Options* options, Given* given) {
                   "or a group: v2s s2s")
       ->delimiter(',')
       ->check(CLI::IsMember(kFactors));
-  app->add_option("--model", given->model)->group("");
-  app->add_option("--model-2v", given->model_pair)->group("");
-  app->add_option("--model-mv", given->model_window)->group("");
   app->add_option("--lcm", given->lcm)->group("");
+}
+
+void add_model_options(CLI::App* app, Options* options, Given* given) {
+  const char* const group = "--predictor onnx";
+  app->add_option("--model", given->model, "ONNX file for pairs and windows")->group(group);
+  app->add_option("--model-2v", options->model_pair, "ONNX file for pairs")->group(group);
+  app->add_option("--model-mv", options->model_window, "ONNX file for windows")->group(group);
+  app->add_option("--provider", options->provider, "cpu, cuda, tensorrt or what the library has")
+      ->capture_default_str()
+      ->group(group);
+  app->add_option("--threads", given->threads, "of one inference (default: one per core)")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  app->add_option("--model-memory", given->memory_mb,
+                  "MB one inference may take (default: half of the machine's)")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  app->add_option("--onnx-runtime", options->onnx_runtime,
+                  "libonnxruntime to open (default: UNISIM_ORT_LIB, bootstrap's, the system's)")
+      ->group(group);
 }
 
 void add_output_options(CLI::App* app, Options* options) {
@@ -93,28 +110,34 @@ void refuse_not_built(const Options& options, const Given& given) {
   const auto refuse = [](bool asked, const char* what) {
     if (asked) throw Failure(kExitUsage, std::string(what) + ": not built yet");
   };
-  refuse(options.predictor == "onnx", "--predictor onnx");
-  refuse(!given.model.empty(), "--model");
-  refuse(!given.model_pair.empty(), "--model-2v");
-  refuse(!given.model_window.empty(), "--model-mv");
   refuse(!given.lcm.empty(), "--lcm");
   refuse(options.format == "lcm", "--format lcm");
 }
 
 void apply(const Given& given, Settings* settings) {
   if (given.stride) settings->pipeline.keyframes.stride = *given.stride;
-  if (given.window) settings->session.window_size = *given.window;
+  if (given.window) {
+    settings->session.window_size = *given.window;
+    settings->window_size_given = true;
+  }
   if (given.overlap) {
     settings->session.window_overlap = *given.overlap;
-  } else if (!settings->window_overlap_given) {
-    settings->session.window_overlap = std::min(kTrackedOverlap, settings->session.window_size / 2);
+    settings->window_overlap_given = true;
   }
   if (given.focal) settings->geometric.focal_px = *given.focal;
   if (given.every_frame) settings->pipeline.every_frame = true;
+  if (given.threads) settings->onnx.threads = *given.threads;
+  if (given.memory_mb) settings->onnx.memory_mb = *given.memory_mb;
   if (given.realtime) settings->pipeline.realtime = true;
   for (const std::string& name : given.disabled) {
     settings->session.disabled_factors |= kFactors.at(name);
   }
+}
+
+/// --model serves where the role has no model of its own.
+void take_models(const Given& given, Options* options) {
+  if (options->model_pair.empty()) options->model_pair = given.model;
+  if (options->model_window.empty()) options->model_window = given.model;
 }
 
 void check(const Options& options) {
@@ -129,6 +152,11 @@ void check(const Options& options) {
           "--predictor recorded needs --predictions FILE");
   require(options.predictions.empty() || options.predictor == "recorded",
           "--predictions goes with --predictor recorded");
+  const bool onnx = options.predictor == "onnx";
+  require(!onnx || (!options.model_pair.empty() && !options.model_window.empty()),
+          "--predictor onnx needs --model FILE, or --model-2v FILE and --model-mv FILE");
+  require(onnx || (options.model_pair.empty() && options.model_window.empty()),
+          "--model, --model-2v and --model-mv go with --predictor onnx");
   require(run.keyframes.stride >= 0, "pipeline.stride must be 0 or more");
   require(run.keyframes.min_gap >= 1, "pipeline.min_gap must be 1 or more");
   require(run.keyframes.max_gap >= run.keyframes.min_gap,
@@ -147,6 +175,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   options.settings = default_settings();
   add_input_options(&app, &options, &given);
   add_method_options(&app, &options, &given);
+  add_model_options(&app, &options, &given);
   add_output_options(&app, &options);
   try {
     app.parse(argc, argv);
@@ -159,6 +188,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   refuse_not_built(options, given);
   if (!given.config.empty()) load_settings(given.config, &options.settings);
   apply(given, &options.settings);
+  take_models(given, &options);
+  set_default_overlap(options.predictor, &options.settings);
   if (!options.print_config) check(options);
   return options;
 }

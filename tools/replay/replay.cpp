@@ -159,20 +159,20 @@ int conclude(const Run& run, const OutputFolder& folder, const std::string& reco
 
 int replay(const Options& options, const std::atomic<bool>& stop) {
   OutputFolder folder(options.out, output_names(options), options.force);
-  std::string sequence_note;
-  std::string predictor_note;
-  const SourcePtr source = open_sequence(options, &sequence_note);
+  std::vector<std::string> notes(1);
+  const SourcePtr source = open_sequence(options, &notes[0]);
   const eval::Trajectory truth = load_ground_truth(options.ground_truth, source.get());
-  const PredictorPtr predictor = open_predictor(options, &predictor_note);
+  Settings settings = options.settings;
+  const PredictorPtr predictor = open_predictor(options, &settings, &notes);
 
-  unisim_config config = options.settings.session;
+  unisim_config config = settings.session;
   if (!options.settings.max_keyframes_given) {
     config.max_keyframes =
         pipeline::keyframe_capacity(source->frame_count(source.get()),
                                     options.settings.pipeline.keyframes, kUnknownLengthKeyframes);
   }
   ProgressLine progress(progress_style(options));
-  for (const std::string& note : {sequence_note, predictor_note}) {
+  for (const std::string& note : notes) {
     if (!note.empty()) progress.on_message(note);
   }
   Cloud cloud(cloud_options(predictor.get()));

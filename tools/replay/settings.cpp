@@ -80,11 +80,20 @@ void add_geometric_fields(unisim_geometric_config* c, std::vector<Field>* fields
                                  {s, "focal_px", &c->focal_px}});
 }
 
+void add_onnx_fields(unisim_onnx_config* c, std::vector<Field>* fields) {
+  const char* s = "onnx";
+  fields->insert(fields->end(), {{s, "threads", &c->threads},
+                                 {s, "memory_mb", &c->memory_mb},
+                                 {s, "keyframe_interval", &c->keyframe_interval},
+                                 {s, "min_pose_confidence", &c->min_pose_confidence}});
+}
+
 std::vector<Field> all_fields(Settings* settings) {
   std::vector<Field> fields;
   add_session_fields(&settings->session, &fields);
   add_pipeline_fields(&settings->pipeline, &fields);
   add_geometric_fields(&settings->geometric, &fields);
+  add_onnx_fields(&settings->onnx, &fields);
   return fields;
 }
 
@@ -178,6 +187,7 @@ Settings default_settings() {
     throw Failure(kExitOther, "this program and libunisim do not fit together: rebuild both");
   }
   unisim_geometric_config_init(&settings.geometric, sizeof settings.geometric);
+  unisim_onnx_config_init(&settings.onnx, sizeof settings.onnx);
   return settings;
 }
 
@@ -188,11 +198,13 @@ void load_settings(const std::string& path, Settings* settings) {
     const std::string section(key.str());
     if (!value.is_table()) {
       const Place place = {path, section, static_cast<unsigned>(value.source().begin.line)};
-      throw place.failure("stands outside of [session], [pipeline] and [geometric]; did you mean " +
-                          nearest_name(fields, section) + "?");
+      throw place.failure(
+          "stands outside of [session], [pipeline], [geometric] and [onnx]; did you mean " +
+          nearest_name(fields, section) + "?");
     }
     set_section(path, section, *value.as_table(), fields);
   }
+  if (file.at_path("session.window_size")) settings->window_size_given = true;
   if (file.at_path("session.window_overlap")) settings->window_overlap_given = true;
   if (file.at_path("session.max_keyframes")) settings->max_keyframes_given = true;
 }

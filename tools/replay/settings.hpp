@@ -6,16 +6,20 @@
 #include <string>
 
 #include "drivers/geometric/geometric.h"
+#include "drivers/onnx/onnx.h"
 #include "drivers/pipeline/pipeline.hpp"
 #include "unisim/unisim.h"
 
 namespace unisim::replay {
 
-/// What `--config` may set: sections [session], [pipeline], [geometric], keys as the fields.
+/// What `--config` may set: sections [session], [pipeline], [geometric], [onnx], keys as the
+/// fields.
 struct Settings {
   unisim_config session;
   unisim_geometric_config geometric;
+  unisim_onnx_config onnx;  ///< its strings stay NULL: they are Options
   pipeline::Options pipeline;
+  bool window_size_given = false;     ///< else a recording says
   bool window_overlap_given = false;  ///< else it follows from the predictor
   bool max_keyframes_given = false;   ///< else it follows from the length of the sequence
 };

@@ -60,6 +60,10 @@ int main(int argc, char** argv) {
   app.add_flag("--noise", options.noise, "sensor noise");
   app.add_flag("--exposure", options.exposure_jumps, "jumps of exposure");
   app.add_flag("--jpg", options.jpeg, "color images as JPEG, quality 95, in place of PNG");
+  app.add_flag("--encode", options.encode, "depth and pose written into the pixels, see README");
+  app.add_option("--unit-spread", options.unit_spread,
+                 "with --encode: spread of the unit of length from inference to inference")
+      ->capture_default_str();
   app.add_option("--threads", options.threads, "0: one per core")->capture_default_str();
   app.add_flag("--force", options.force, "replace an earlier sequence in OUT");
   app.add_flag("--quiet", quiet, "print nothing but errors");

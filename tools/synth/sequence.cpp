@@ -9,6 +9,8 @@
 #include <sstream>
 #include <thread>
 
+#include "tools/synth/encoding.hpp"
+#include "tools/synth/random.hpp"
 #include "tools/synth/renderer.hpp"
 #include "tools/synth/sensor.hpp"
 
@@ -47,6 +49,7 @@ std::string describe(const SequenceOptions& options, const Camera& camera) {
        << "\nloops = " << options.loops << "\nseed = " << options.seed
        << "\nblur = " << boolean(options.blur) << "\nnoise = " << boolean(options.noise)
        << "\nexposure = " << boolean(options.exposure_jumps) << "\njpeg = " << boolean(options.jpeg)
+       << "\nencode = " << boolean(options.encode) << "\nunit_spread = " << options.unit_spread
        << "\ndepth_factor = " << kDepthFactor << "\n\n[camera]  # pixel centres at whole numbers; "
        << "undistorted = distorted (1 + k1 r^2), r in focal lengths\n"
        << "width = " << camera.width << "\nheight = " << camera.height
@@ -79,13 +82,20 @@ class FrameMaker {
                        middle ? &depth : nullptr);
     }
     const double stamp = frame_time_s(options_, frame);
-    writer_.write_frame(stamp,
-                        expose(colors, camera_, 1 / static_cast<float>(views), sensor_, frame),
-                        encode_depth(depth, camera_, kDepthFactor));
+    const cv::Mat image =
+        options_.encode ? encode_frame(depth, camera_, header(frame))
+                        : expose(colors, camera_, 1 / static_cast<float>(views), sensor_, frame);
+    writer_.write_frame(stamp, image, encode_depth(depth, camera_, kDepthFactor));
     return {stamp, path_.T_world_cam(time_s)};
   }
 
  private:
+  EncodedHeader header(int frame) const {
+    const uint64_t index = 0x2000000u + static_cast<uint64_t>(frame);
+    const double share = Random(derive_seed(options_.seed, index)).uniform();
+    return {path_.T_world_cam(frame / options_.fps), share, options_.unit_spread};
+  }
+
   const SequenceOptions& options_;
   Camera camera_;
   CameraPath path_;
@@ -152,6 +162,13 @@ void check_options(const SequenceOptions& options) {
           "--focal must be 0.2 to 10 times the width, in pixels");
   require(options.fps > 0 && options.fps <= 1000, "--fps must be above 0 and at most 1000");
   require(std::abs(options.radial_k1) <= 0.2, "--radial must be -0.2 to 0.2");
+  require(!options.encode || !(options.blur || options.noise || options.exposure_jumps ||
+                               options.jpeg || options.radial_k1 != 0),
+          "--encode writes numbers, not light: it goes with none of --blur --noise --exposure "
+          "--jpg --radial");
+  require(options.unit_spread >= 0 && options.unit_spread < 1,
+          "--unit-spread must be 0 to below 1");
+  require(options.encode || options.unit_spread == 0, "--unit-spread goes with --encode");
   require(options.threads >= 0 && options.threads <= 256, "--threads must be 0 to 256");
 }
 

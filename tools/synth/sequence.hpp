@@ -27,6 +27,8 @@ struct SequenceOptions {
   bool noise = false;
   bool exposure_jumps = false;
   bool jpeg = false;
+  bool encode = false;     ///< depth and pose in the pixels; see encoding.hpp
+  double unit_spread = 0;  ///< of encoded frames: 0 <= spread < 1
   bool force = false;
   int threads = 0;  ///< 0: one per processor core
 };

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// A network that keeps the model contract, with its buffers.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivers/onnx/config.hpp"
+#include "drivers/onnx/contract.hpp"
+#include "drivers/onnx/network.hpp"
+#include "drivers/onnx/runtime.hpp"
+
+namespace unisim::onnx {
+
+/// What one inference cost when it was measured at load.
+struct Cost {
+  int32_t views = 0;
+  double seconds = 0;
+  int64_t bytes = 0;  ///< peak memory beyond that of the loaded model
+};
+
+class Model {
+ public:
+  /// Loads the file and holds it against the contract. @throws OnnxError
+  Model(std::shared_ptr<const Runtime> runtime, const std::string& path, const RunOptions& options);
+
+  const Contract& contract() const { return contract_; }
+  const std::string& path() const { return network_.path(); }
+  /// Floats of one view's input.
+  int64_t view_floats() const { return 3 * pixels(); }
+  int64_t pixels() const { return int64_t{contract_.height} * contract_.width; }
+
+  /// Takes the buffers for up to `views`, runs each number that later comes up and keeps as many as
+  /// fit the memory budget. A number of views that is warm takes no memory of ours later.
+  /// @param first  the number that must fit @throws OnnxError (NO_MEMORY) when it does not
+  void warm_up(int32_t first, int32_t views, int64_t memory_bytes);
+
+  int32_t max_views() const { return max_views_; }  ///< after warm_up()
+  const std::vector<Cost>& costs() const { return costs_; }
+  int64_t bytes() const;
+
+  /// One inference. The input is filled by the caller, view by view; a model whose fewest views are
+  /// more than asked for gets the last one repeated.
+  /// @return "" or why it failed, in one line
+  std::string run(int32_t views);
+  float* input(int32_t view) { return images_.data() + view * view_floats(); }
+
+  // Of the last run.
+  const float* depth(int32_t view) const { return depth_.data() + view * pixels(); }
+  const float* confidence(int32_t view) const { return confidence_.data() + view * pixels(); }
+  const float* pose(int32_t view) const { return pose_.data() + view * 12; }
+  const float* intrinsics(int32_t view) const { return intrinsics_.data() + view * 9; }
+  /// Least of the model's pose confidences, 1 where it gives none.
+  float pose_confidence() const;
+  /// Of kind descriptor.
+  const std::vector<float>& descriptor() const { return descriptor_; }
+
+ private:
+  void check_tensors();
+  void check_input(const TensorInfo& input) const;
+  void check_output(const std::string& name, const std::vector<int64_t>& shape) const;
+  void take_buffers(int32_t views);
+  void bind(int32_t views);
+  void measure(int32_t views);
+
+  Network network_;
+  Contract contract_;
+  int32_t max_views_ = 0;
+  int32_t confidences_ = 0;  // of the pose: 0 none, 1 one, -1 one per view
+  int32_t last_views_ = 0;   // of the last run
+  std::vector<float> images_, depth_, confidence_, pose_, intrinsics_, pose_confidence_,
+      descriptor_;
+  std::vector<std::unique_ptr<Network::Binding>> bindings_;  // by number of views
+  std::vector<Cost> costs_;
+};
+
+}  // namespace unisim::onnx

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// Models in ONNX format behind the table of drivers/predictor.h.
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <new>
+#include <numeric>
+#include <string>
+
+#include "drivers/onnx/config.hpp"
+#include "drivers/onnx/error.hpp"
+#include "drivers/onnx/models.hpp"
+#include "drivers/onnx/onnx.h"
+#include "drivers/onnx/role.hpp"
+
+namespace unisim::onnx {
+namespace {
+
+// Windows wait for the pairs after them: a few keyframes more than a window are kept.
+constexpr int32_t kSpareViews = 4;
+// Runs that fail one after another mean that the device is gone, not that one input was bad.
+constexpr int32_t kMaxFailures = 3;
+
+struct OnnxPredictor {
+  unisim_predictor table{};  // first: the table's address is the predictor's
+  Config config;
+  Models models;
+  std::shared_ptr<Views> pair_views;
+  std::shared_ptr<Views> window_views;
+  std::unique_ptr<Role> pair;
+  std::unique_ptr<Role> window;
+  unisim_image shape{};  // every image's size
+  int64_t last_keyframe_frame = -1;
+  int32_t keyframes = 0;
+  int32_t failures = 0;
+  int64_t windows = 0;
+  double focal_px = 0;
+  std::string message;
+};
+
+OnnxPredictor* self(unisim_predictor* predictor) {
+  return reinterpret_cast<OnnxPredictor*>(predictor);
+}
+const OnnxPredictor* self(const unisim_predictor* predictor) {
+  return reinterpret_cast<const OnnxPredictor*>(predictor);
+}
+
+/// Runs `body`; nothing thrown below crosses the C interface.
+template <typename Body>
+int guarded(unisim_predictor* predictor, Body&& body) {
+  OnnxPredictor* me = self(predictor);
+  try {
+    return body(me);
+  } catch (const std::bad_alloc&) {
+    me->message = "out of memory; take a model with a smaller input or smaller windows";
+  } catch (const std::exception& error) {
+    me->message = error.what();
+  }
+  return UNISIM_PREDICTION_FAILED;
+}
+
+std::string size_text(const unisim_image& image) {
+  return std::to_string(image.width) + "x" + std::to_string(image.height);
+}
+
+/// What follows from the size of the images is made with the first one.
+void take_shape(OnnxPredictor* me, const unisim_image& image) {
+  me->shape = image;
+  const int32_t capacity = me->models.window_size + kSpareViews;
+  const auto make_views = [&](const Model& model, int32_t kept) {
+    return std::make_shared<Views>(model.contract(), image.width, image.height, kept,
+                                   model.view_floats());
+  };
+  const bool shared = me->models.pair == me->models.window;
+  me->window_views = make_views(*me->models.window, capacity);
+  me->pair_views = shared ? me->window_views : make_views(*me->models.pair, kSpareViews);
+  const double least = me->config.min_pose_confidence;
+  me->pair = std::make_unique<Role>(me->models.pair, me->pair_views, 2, least);
+  me->window =
+      std::make_unique<Role>(me->models.window, me->window_views, me->models.window_size, least);
+}
+
+bool accept_image(OnnxPredictor* me, const unisim_image& image) {
+  if (image.data == nullptr || image.width < 1 || image.height < 1) {
+    me->message = "image is empty; frame left out";
+    return false;
+  }
+  if (image.format != UNISIM_PIXEL_GRAY8 && image.format != UNISIM_PIXEL_BGR8) {
+    me->message =
+        "pixel format " + std::to_string(image.format) + " is neither gray nor BGR; frame left out";
+    return false;
+  }
+  if (me->pair == nullptr) take_shape(me, image);
+  if (image.width != me->shape.width || image.height != me->shape.height) {
+    me->message = "image size changed from " + size_text(me->shape) + " to " + size_text(image) +
+                  "; frame left out";
+    return false;
+  }
+  return true;
+}
+
+int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motion* motion) {
+  *motion = {-1.0, -1.0, 0};
+  return guarded(predictor, [&](OnnxPredictor* me) {
+    if (!accept_image(me, frame->image)) return UNISIM_PREDICTION_REJECTED;
+    // A network needs no motion to see depth, and says nothing of it before it runs: a fixed beat.
+    const int64_t gap = frame->index - me->last_keyframe_frame;
+    const bool due = me->last_keyframe_frame < 0 || gap >= me->config.keyframe_interval;
+    motion->keyframe_advice = due ? 1 : -1;
+    return UNISIM_PREDICTION_OK;
+  });
+}
+
+int keyframe(unisim_predictor* predictor, const unisim_frame* frame, int32_t id) {
+  return guarded(predictor, [&](OnnxPredictor* me) {
+    if (me->pair == nullptr || id != me->keyframes || frame->image.data == nullptr) {
+      me->message = "keyframe " + std::to_string(id) + " came out of order or without image";
+      return UNISIM_PREDICTION_FAILED;
+    }
+    ++me->keyframes;
+    me->last_keyframe_frame = frame->index;
+    me->pair_views->add(id, frame->image);
+    if (me->window_views != me->pair_views) me->window_views->add(id, frame->image);
+    return UNISIM_PREDICTION_OK;
+  });
+}
+
+int predict(OnnxPredictor* me, Role* role, const int32_t* ids, int32_t count) {
+  if (role == nullptr) return UNISIM_PREDICTION_PENDING;
+  Answer answer = role->predict(ids, count);
+  if (answer.problem.empty()) {
+    me->failures = 0;
+    me->focal_px = role->outputs().focal_px();
+    return UNISIM_PREDICTION_OK;
+  }
+  me->message = std::move(answer.problem);
+  me->failures = answer.run_failed ? me->failures + 1 : 0;
+  return me->failures < kMaxFailures ? UNISIM_PREDICTION_REJECTED : UNISIM_PREDICTION_FAILED;
+}
+
+int two_view(unisim_predictor* predictor, int32_t i, int32_t j, unisim_pair_prediction* out) {
+  return guarded(predictor, [&](OnnxPredictor* me) {
+    const int32_t ids[2] = {i, j};
+    const int status = predict(me, me->pair.get(), ids, 2);
+    if (status != UNISIM_PREDICTION_OK) return status;
+    const Outputs& outputs = me->pair->outputs();
+    *out = {outputs.T_0_view()[1], outputs.maps()[0], outputs.maps()[1], outputs.focal_px(), 0.0};
+    return status;
+  });
+}
+
+int multi_view(unisim_predictor* predictor, const int32_t* ids, int32_t count,
+               unisim_window_prediction* out) {
+  return guarded(predictor, [&](OnnxPredictor* me) {
+    if (count > me->models.window_size) {
+      me->message = std::to_string(count) + " views are more than the " +
+                    std::to_string(me->models.window_size) +
+                    " that model and memory allow; lower session.window_size";
+      return UNISIM_PREDICTION_REJECTED;
+    }
+    const int status = predict(me, me->window.get(), ids, count);
+    if (status != UNISIM_PREDICTION_OK) return status;
+    const Outputs& outputs = me->window->outputs();
+    *out = {
+        count, ids,          outputs.T_0_view().data(), outputs.maps().data(), outputs.focal_px(),
+        0.0,   me->windows++};
+    return status;
+  });
+}
+
+void info(unisim_predictor* predictor, unisim_predictor_info* out) {
+  const OnnxPredictor* me = self(predictor);
+  *out = {};
+  out->focal_px = me->focal_px;
+  out->initialised = me->focal_px > 0 ? 1 : 0;
+  out->state_bytes = me->models.pair->bytes();
+  if (me->models.window != me->models.pair) out->state_bytes += me->models.window->bytes();
+  if (me->pair == nullptr) return;
+  out->state_bytes +=
+      me->pair_views->bytes() + me->pair->outputs().bytes() + me->window->outputs().bytes();
+  if (me->window_views != me->pair_views) out->state_bytes += me->window_views->bytes();
+}
+
+const char* message(unisim_predictor* predictor) { return self(predictor)->message.c_str(); }
+
+void destroy(unisim_predictor* predictor) { delete self(predictor); }
+
+}  // namespace
+}  // namespace unisim::onnx
+
+unisim_predictor* unisim_onnx_create(const unisim_onnx_config* config, int32_t* problem,
+                                     char* message, size_t capacity) {
+  namespace o = unisim::onnx;
+  int32_t kind = UNISIM_ONNX_OK;
+  std::string line;
+  try {
+    auto made = std::make_unique<o::OnnxPredictor>();
+    made->config = o::read_config(*config);
+    made->models = o::load_models(made->config);
+    made->table = {"onnx",  1,       o::observe, o::keyframe, o::two_view, o::multi_view,
+                   nullptr, nullptr, nullptr,    o::info,     o::message,  o::destroy};
+    if (problem != nullptr) *problem = kind;
+    return &made.release()->table;
+  } catch (const o::OnnxError& error) {
+    kind = error.problem();
+    line = error.what();
+  } catch (const std::exception& error) {
+    kind = UNISIM_ONNX_NO_MEMORY;
+    line = std::string("onnx: ") + error.what();
+  }
+  if (problem != nullptr) *problem = kind;
+  if (message != nullptr && capacity > 0) std::snprintf(message, capacity, "%s", line.c_str());
+  return nullptr;
+}
+
+int32_t unisim_onnx_window_size(const unisim_predictor* predictor) {
+  return unisim::onnx::self(predictor)->models.window_size;
+}
+
+const char* unisim_onnx_note(const unisim_predictor* predictor, int32_t index) {
+  const auto& notes = unisim::onnx::self(predictor)->models.notes;
+  const auto at = static_cast<size_t>(index);
+  return index >= 0 && at < notes.size() ? notes[at].c_str() : nullptr;
+}

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// One job of a model.
+#include "drivers/onnx/role.hpp"
+
+#include <algorithm>
+
+namespace unisim::onnx {
+
+Answer Role::predict(const int32_t* ids, int32_t count) {
+  for (int32_t view = 0; view < count; ++view) {
+    const float* const stored = views_->find(ids[view]);
+    if (stored == nullptr) {
+      return {"keyframe " + std::to_string(ids[view]) + " is not kept any more", false};
+    }
+    std::copy_n(stored, model_->view_floats(), model_->input(view));
+  }
+  const std::string failure = model_->run(count);
+  if (!failure.empty()) return {model_->path() + ": " + failure, true};
+  if (model_->pose_confidence() < min_pose_confidence_) {
+    return {"pose confidence " + std::to_string(model_->pose_confidence()) + " is below " +
+                std::to_string(min_pose_confidence_),
+            false};
+  }
+  return {outputs_.read(*model_, count), false};
+}
+
+}  // namespace unisim::onnx

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// After warm-up the driver takes no memory: what the runtime does inside is counted apart.
+#include "drivers/onnx/role.hpp"
+#include "tests/alloc/malloc_counter.hpp"
+#include "tests/onnx/predictor_fixture.hpp"
+
+using namespace unisim;
+using namespace unisim::testing;
+
+TEST_CASE("an inference makes no heap call of ours") {
+  UNISIM_SKIP_WITHOUT_RUNTIME();
+  onnx::RunOptions run;
+  run.provider = "cpu";
+  run.threads = 1;
+  run.memory_bytes = int64_t{1} << 30;
+  const auto model =
+      std::make_shared<onnx::Model>(onnx::Runtime::open(""), model_file("multiview.onnx"), run);
+  model->warm_up(2, 6, run.memory_bytes);
+  const auto views =
+      std::make_shared<onnx::Views>(model->contract(), 32, 24, 10, model->view_floats());
+  onnx::Role role(model, views, 6, 0.5);
+  const int32_t ids[] = {0, 1, 2, 3};
+  const std::vector<Image> images = {colourful(32, 24, 0), colourful(32, 24, 1),
+                                     colourful(32, 24, 2), colourful(32, 24, 3)};
+  for (int32_t id = 0; id < 4; ++id) views->add(id, images[static_cast<size_t>(id)].view);
+  REQUIRE(role.predict(ids, 4).problem.empty());
+
+  int64_t before = test::heap_calls();
+  views->add(4, images[0].view);
+  CHECK(test::heap_calls() - before == 0);
+
+  before = test::heap_calls();
+  const bool ran = model->run(4).empty();
+  const int64_t of_the_runtime = test::heap_calls() - before;
+  REQUIRE(ran);
+
+  before = test::heap_calls();
+  const bool predicted = role.predict(ids, 4).problem.empty();
+  const int64_t of_all = test::heap_calls() - before;
+  REQUIRE(predicted);
+  CHECK(of_all == of_the_runtime);
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Small parts: nearest rotation, confidence by quantile, the memory budget, the ring of views.
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "drivers/onnx/memory_use.hpp"
+#include "drivers/onnx/nearest_rotation.hpp"
+#include "drivers/onnx/quantile.hpp"
+#include "drivers/onnx/view_store.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace unisim::onnx;
+
+TEST_CASE("the rotation inside a stretched matrix is found") {
+  const Eigen::Quaterniond truth(Eigen::AngleAxisd(2.5, Eigen::Vector3d(1, -2, 0.5).normalized()));
+  Eigen::Matrix3d stretch;
+  stretch << 1.2, 0.1, 0.0, 0.1, 0.8, -0.2, 0.0, -0.2, 1.1;
+  Eigen::Quaterniond found;
+  REQUIRE(nearest_rotation(truth.toRotationMatrix() * stretch, &found));
+  CHECK(found.angularDistance(truth) < 1e-9);
+}
+
+TEST_CASE("a reflection has a nearest rotation, a rank-one matrix has none") {
+  Eigen::Quaterniond found;
+  REQUIRE(nearest_rotation(Eigen::Vector3d(1, 1, -0.5).asDiagonal(), &found));
+  CHECK(found.angularDistance(Eigen::Quaterniond::Identity()) < 1e-9);
+  CHECK_FALSE(nearest_rotation(Eigen::Vector3d(1, 0, 0).asDiagonal(), &found));
+  CHECK_FALSE(nearest_rotation(Eigen::Matrix3d::Zero(), &found));
+}
+
+TEST_CASE("confidence becomes its rank, equal values the mean of theirs") {
+  std::vector<float> values = {10, -3, 10, 0.5f, -0.0f, 0.0f};
+  QuantileRanker ranker(values.size());
+  ranker.rank(values.data(), values.size());
+  const std::vector<float> expected = {0.9f, 0, 0.9f, 0.6f, 0.3f, 0.3f};
+  for (size_t i = 0; i < values.size(); ++i) CHECK(values[i] == Approx(expected[i]));
+}
+
+TEST_CASE("as many views are taken as the budget allows, and none is tried beyond it") {
+  int64_t largest = 0;
+  const auto quadratic = [&](int32_t views) {
+    const int64_t bytes = 10 * int64_t{views} * views;
+    largest = std::max(largest, bytes);
+    return bytes;
+  };
+  int64_t bytes = 0;
+  CHECK(views_within(2560, 2, 16, quadratic, &bytes) == 16);
+  CHECK(bytes == 2560);
+  largest = 0;
+  CHECK(views_within(1500, 2, 16, quadratic, &bytes) == 12);
+  CHECK(largest <= 1500);
+  const auto linear = [&](int32_t views) { return int64_t{100} * views; };
+  CHECK(views_within(1000, 2, 16, linear, &bytes) == 8);
+  CHECK(views_within(100, 2, 16, linear, &bytes) == 2);
+  CHECK(bytes == 200);
+}
+
+TEST_CASE("the ring keeps the newest views and knows the others are gone") {
+  ViewStore store(3, 2);
+  for (int32_t id = 0; id < 5; ++id) store.add(id)[1] = static_cast<float>(id);
+  CHECK(store.find(1) == nullptr);
+  CHECK(store.find(5) == nullptr);
+  for (int32_t id = 2; id < 5; ++id) CHECK(store.find(id)[1] == static_cast<float>(id));
+}
