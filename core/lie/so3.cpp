@@ -42,17 +42,18 @@ Quat so3_exp(const Vec3& phi) {
   return Quat(w, k * phi.x(), k * phi.y(), k * phi.z());
 }
 
-Vec3 so3_log(const Quat& q) {
-  const double n2 = q.x() * q.x() + q.y() * q.y() + q.z() * q.z();
-  const double w = q.w();
+double so3_log_factor(double n2, double w) {
   if (n2 < kLogSeries * w * w) {
     const double r2 = n2 / (w * w);
-    const double k = 2.0 / w * (1.0 - r2 * (1.0 / 3 - r2 * (1.0 / 5 - r2 / 7)));
-    return Vec3(k * q.x(), k * q.y(), k * q.z());
+    return 2.0 / w * (1.0 - r2 * (1.0 / 3 - r2 * (1.0 / 5 - r2 / 7)));
   }
   const double n = std::sqrt(n2);
-  const double k = w < 0.0 ? 2.0 * std::atan2(-n, -w) / n : 2.0 * std::atan2(n, w) / n;
-  return Vec3(k * q.x(), k * q.y(), k * q.z());
+  return w < 0.0 ? 2.0 * std::atan2(-n, -w) / n : 2.0 * std::atan2(n, w) / n;
+}
+
+Vec3 so3_log(const Quat& q) {
+  const Vec3 v(q.x(), q.y(), q.z());
+  return so3_log_factor(v.squaredNorm(), q.w()) * v;
 }
 
 Vec3 rotate(const Quat& q, const Vec3& v) {

@@ -3,56 +3,32 @@
 #include "core/solve/normal_equations.hpp"
 
 #include <cstring>
+#include <limits>
 
-#include "core/graph/chain.hpp"
-#include "core/graph/relative_pose.hpp"
 #include "core/graph/scale_ratio.hpp"
+#include "core/solve/quad_collector.hpp"
 
 namespace unisim {
 namespace {
 
 constexpr int kLogScale = 6;
 
-// Lower triangle += w S.
-void add_symmetric(Block& block, double w, const SymmetricBlocks& S) {
-  for (int c = 0; c < 3; ++c) {
-    for (int r = c; r < 3; ++r) {
-      block.at(r, c) += w * S.tt(r, c);
-      block.at(r + 3, c + 3) += w * S.rr(r, c);
-    }
-    for (int r = 0; r < 3; ++r) block.at(r + 3, c) += w * S.tr(c, r);
-    block.at(6, c) += w * S.ts(c);
-    block.at(6, c + 3) += w * S.rs(c);
-  }
-  block.at(6, 6) += w * S.ss;
+QuadShape shape_of(const Edge& edge) {
+  if (edge.kind == FactorKind::kChain) return QuadShape::kChain;
+  if (edge.kind == FactorKind::kRigid) return QuadShape::kRigid;
+  return edge.Q < 0 ? QuadShape::kOneMeasurement : QuadShape::kTwoMeasurements;
 }
 
-// Lower triangle += w M.
-void add_lower(Block& block, double w, const Mat7& M) {
-  for (int c = 0; c < kTangentDim; ++c) {
-    for (int r = c; r < kTangentDim; ++r) block.at(r, c) += w * M(r, c);
-  }
-}
-
-// Block += w H_ba, transposed when its rows are those of a.
-void add_coupling(Block& block, double w, const Mat7& H_ba, bool a_is_later) {
-  for (int c = 0; c < kTangentDim; ++c) {
-    for (int r = 0; r < kTangentDim; ++r) {
-      block.at(r, c) += w * (a_is_later ? H_ba(c, r) : H_ba(r, c));
-    }
-  }
-}
-
-void add_vector(BlockVector& target, double w, const Vec7& g) {
-  for (int r = 0; r < kTangentDim; ++r) target.v[r] += w * g(r);
-}
+// A Sim3 as eight numbers in a row.
+const double* numbers(const Sim3& T) { return T.q.coeffs().data(); }
 
 }  // namespace
 
+// One block more than the structure has: what an edge would add to a fixed node goes there.
 NormalEquations::NormalEquations(Arena& arena, const SolverCapacity& capacity)
-    : diagonal_(arena.take<Block>(capacity.nodes)),
-      off_diagonal_(arena.take<Block>(capacity.pairs)),
-      gradient_(arena.take<BlockVector>(capacity.nodes)) {}
+    : diagonal_(arena.take<Block>(capacity.nodes + 1)),
+      off_diagonal_(arena.take<Block>(capacity.pairs + 1)),
+      gradient_(arena.take<BlockVector>(capacity.nodes + 1)) {}
 
 void NormalEquations::clear(const BlockPattern& pattern) {
   columns_ = pattern.columns();
@@ -66,66 +42,43 @@ void NormalEquations::clear(const BlockPattern& pattern) {
 double NormalEquations::linearize(const Graph& graph, const BlockPattern& pattern) {
   clear(pattern);
   double cost = 0.0;
+  QuadCollector quads;
   for (int32_t id = 0; id < graph.edge_end(); ++id) {
     const Edge& edge = graph.edge(id);
     if (!edge.active()) continue;
-    cost += add_edge(graph, pattern, id);
+    if (is_pose_factor(edge.kind)) {
+      add_pose_edge(graph, pattern, id, &quads);
+    } else {
+      cost += add_scale_edge(graph, pattern, id);
+    }
   }
-  return cost;
+  return cost + quads.finish();
 }
 
-double NormalEquations::add_edge(const Graph& graph, const BlockPattern& pattern, int32_t id) {
-  const FactorKind kind = graph.edge(id).kind;
-  if (kind == FactorKind::kChain) return add_chain_edge(graph, pattern, id);
-  return is_pose_factor(kind) ? add_pose_edge(graph, pattern, id)
-                              : add_scale_edge(graph, pattern, id);
-}
-
-double NormalEquations::add_pose_edge(const Graph& graph, const BlockPattern& pattern, int32_t id) {
+void NormalEquations::add_pose_edge(const Graph& graph, const BlockPattern& pattern, int32_t id,
+                                    QuadCollector* quads) {
   const Edge& edge = graph.edge(id);
-  RelativePoseNormal normal;
-  relative_pose_normal(graph.pose(edge.a), graph.pose(edge.b), graph.measurement(edge.P),
-                       edge.Q < 0 ? nullptr : &graph.measurement(edge.Q), &normal);
-  const RobustCost robust = robust_cost(edge.kernel, edge.weight() * normal.e.squaredNorm());
-  const double w = edge.weight() * robust.weight;
   const int32_t a = pattern.column_of_node(edge.a);
   const int32_t b = pattern.column_of_node(edge.b);
-  if (a >= 0) {
-    add_symmetric(diagonal_[a], w, normal.H_aa);
-    add_vector(gradient_[a], w, normal.g_a);
-  }
-  if (b >= 0) {
-    add_symmetric(diagonal_[b], w, normal.H_bb);
-    add_vector(gradient_[b], w, normal.g_b);
-  }
   const EdgeSlot place = pattern.edge_slot(id);
-  if (place.slot < 0) return robust.cost;
-  add_coupling(off_diagonal_[place.slot], w, normal.H_ba, place.a_is_later);
-  return robust.cost;
-}
-
-double NormalEquations::add_chain_edge(const Graph& graph, const BlockPattern& pattern,
-                                       int32_t id) {
-  const Edge& edge = graph.edge(id);
-  ChainNormal normal;
-  chain_normal(graph.pose(edge.a), graph.pose(edge.b), graph.link(edge), &normal);
-  const RobustCost robust = robust_cost(edge.kernel, edge.weight() * normal.u_squared);
-  const double w = edge.weight() * robust.weight;
-  const int32_t a = pattern.column_of_node(edge.a);
-  const int32_t b = pattern.column_of_node(edge.b);
-  if (a >= 0) {
-    add_lower(diagonal_[a], w, normal.H_aa);
-    add_vector(gradient_[a], w, normal.g_a);
-  }
-  if (b >= 0) {
-    add_lower(diagonal_[b], w, normal.H_bb);
-    add_vector(gradient_[b], w, normal.g_b);
-  }
-  const EdgeSlot place = pattern.edge_slot(id);
-  if (place.slot >= 0) {
-    add_coupling(off_diagonal_[place.slot], w, normal.H_ba, place.a_is_later);
-  }
-  return robust.cost;
+  const int32_t no_column = diagonal_.size() - 1;
+  const int32_t no_slot = off_diagonal_.size() - 1;
+  QuadEdge out;
+  out.A = numbers(graph.pose(edge.a));
+  out.B = numbers(graph.pose(edge.b));
+  out.P = numbers(graph.measurement(edge.P));
+  out.Q = edge.Q < 0 ? nullptr : numbers(graph.measurement(edge.Q));
+  out.Lambda = edge.Lambda < 0 ? nullptr : graph.information(edge.Lambda).data();
+  out.weight = edge.weight();
+  out.delta = edge.kernel.kind == RobustKernelKind::kNone ? std::numeric_limits<double>::infinity()
+                                                          : edge.kernel.delta;
+  out.geman_mcclure = edge.kernel.kind == RobustKernelKind::kGemanMcClure;
+  out.H_aa = &diagonal_[a >= 0 ? a : no_column];
+  out.H_bb = &diagonal_[b >= 0 ? b : no_column];
+  out.g_a = gradient_[a >= 0 ? a : no_column].v;
+  out.g_b = gradient_[b >= 0 ? b : no_column].v;
+  out.H_ab = &off_diagonal_[place.slot >= 0 ? place.slot : no_slot];
+  quads->add(shape_of(edge), place.a_is_later, out);
 }
 
 double NormalEquations::add_scale_edge(const Graph& graph, const BlockPattern& pattern,

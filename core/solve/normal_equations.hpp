@@ -12,6 +12,8 @@
 
 namespace unisim {
 
+class QuadCollector;
+
 /// Values of H (IRLS weights included) and g on a BlockPattern.
 class NormalEquations {
  public:
@@ -28,9 +30,8 @@ class NormalEquations {
   Span<const BlockVector> gradient() const { return {gradient_.data(), columns_}; }
 
  private:
-  double add_pose_edge(const Graph& graph, const BlockPattern& pattern, int32_t id);
-  double add_chain_edge(const Graph& graph, const BlockPattern& pattern, int32_t id);
-  double add_edge(const Graph& graph, const BlockPattern& pattern, int32_t id);
+  void add_pose_edge(const Graph& graph, const BlockPattern& pattern, int32_t id,
+                     QuadCollector* quads);
   double add_scale_edge(const Graph& graph, const BlockPattern& pattern, int32_t id);
   void clear(const BlockPattern& pattern);
 
