@@ -20,7 +20,7 @@ struct PackTangent {
   Pack sigma;
 };
 
-/// Blocks of J_r^-1 that are not constant, as Sim3JacobianInverse.
+/// Blocks of J_r^-1 that are not constant: [[V_inv, X, x], [0, J_inv, 0], [0, 0, 1]].
 struct PackJacobianInverse {
   Pack33 V_inv;
   Pack33 X;
@@ -127,7 +127,7 @@ UNISIM_ALWAYS_INLINE Pack33 polynomial(const Pack3& phi, Pack theta2, Pack a, Pa
   return plus_diagonal(plus_hat(outer(c * phi, phi), b * phi), a - c * theta2);
 }
 
-/// Logarithm e of T and the blocks of J_r^-1(e): sim3_log_with_jacobian() of sim3.hpp.
+/// Logarithm e of T and the blocks of J_r^-1(e) = J_l^-1(e) + ad(e), J_l^-1 as in sim3.cpp.
 UNISIM_ALWAYS_INLINE void log_with_jacobian(const PackSim3& T, PackTangent* e,
                                             PackJacobianInverse* M) {
   const Pack3 v = vector_part(T.q);

@@ -2,8 +2,7 @@
 // What the logarithm of one similarity is built from.
 #include "core/lie/sim3_log_terms.hpp"
 
-#include <cmath>
-
+#include "core/base/math.hpp"
 #include "core/lie/so3.hpp"
 
 namespace unisim {
@@ -11,7 +10,7 @@ namespace unisim {
 void sim3_log_terms(double x, double y, double z, double w, double s, Sim3LogTerms* out) {
   const double n2 = x * x + y * y + z * z;
   out->angle_factor = so3_log_factor(n2, w);
-  out->sigma = std::log(s);
+  out->sigma = math::log(s);
   out->coefficients = log_coefficients(out->angle_factor * out->angle_factor * n2, out->sigma);
 }
 
