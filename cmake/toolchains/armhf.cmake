@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Cross build for 32-bit Arm with hardware floating point with Debian's g++-arm-linux-gnueabihf. Eigen is headers only: its folder is
-# named by Eigen3_DIR, the host's own package serves.
+# Cross build for 32-bit Arm, hardware floating point, with Debian's g++-arm-linux-gnueabihf. Eigen is headers
+# only: its folder is named by Eigen3_DIR, the host's own package serves.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(CMAKE_C_COMPILER arm-linux-gnueabihf-gcc)
