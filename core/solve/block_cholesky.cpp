@@ -3,21 +3,11 @@
 #include "core/solve/block_cholesky.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "core/solve/supernodal_factor.hpp"
 
 namespace unisim {
-namespace {
-
-// Columns join into one supernode when the blocks of L that this adds as zeros are at most this
-// share of the supernode's: products over longer runs pay for them.
-constexpr double kZeroShare = 0.2;
-
-PlainBlockMatrix plain(const BlockMatrixView& H) {
-  return {H.column_start.data(), H.rows.data(), H.diagonal.data(), H.off_diagonal.data()};
-}
-
-}  // namespace
 
 BlockCholesky::BlockCholesky(Arena& arena, const SolverCapacity& capacity)
     : capacity_(capacity),
@@ -27,6 +17,10 @@ BlockCholesky::BlockCholesky(Arena& arena, const SolverCapacity& capacity)
       row_start_(arena.take<int32_t>(capacity.nodes + 1)),
       rows_(arena.take<int32_t>(std::max(capacity.factor_blocks - 1, 0))),
       block_start_(arena.take<int32_t>(capacity.nodes + 1)),
+      diagonal_(arena.take<int32_t>(capacity.nodes)),
+      off_diagonal_(arena.take<int32_t>(capacity.pairs)),
+      stale_(arena.take<uint8_t>(capacity.nodes)),
+      H_diagonal_(arena.take<BlockVector>(capacity.nodes)),
       parent_(arena.take<int32_t>(capacity.nodes)),
       H_start_(arena.take<int32_t>(capacity.nodes + 1)),
       H_columns_(arena.take<int32_t>(capacity.pairs)),
@@ -78,35 +72,17 @@ void BlockCholesky::visit_rows(Visit visit) {
   }
 }
 
-// Cuts the columns into supernodes. Column j + 1 joins the run of column j when it is the parent of
-// j: the rows of j lie then among its own, so that the rows of a run are those of its last column.
-// @return blocks of L, the zeros of joined columns included
-int64_t BlockCholesky::choose_supernodes(Span<const int32_t> count, bool relaxed) {
-  const double share = relaxed ? kZeroShare : 0.0;
+// Cuts the columns into supernodes: column j joins the run of column j - 1 when it is its parent
+// and has the same rows below. Joining columns that differ a little, by blocks of zeros, does not
+// pay with blocks of this size.
+void BlockCholesky::choose_supernodes(Span<const int32_t> count) {
   supernodes_ = 0;
-  int64_t total = 0;
-  int64_t own = 0;  // non-zero blocks of the present run
   for (int32_t j = 0; j < columns_; ++j) {
-    const int64_t column = 1 + count[j];
-    bool joins = false;
-    if (j > 0 && parent_[j - 1] == j) {
-      const int64_t width = j + 1 - first_column_[supernodes_ - 1];
-      const int64_t joined = triangle(static_cast<int32_t>(width)) + width * count[j];
-      joins = static_cast<double>(joined - own - column) <= share * static_cast<double>(joined);
-    }
-    if (!joins) {
-      first_column_[supernodes_++] = j;
-      own = 0;
-    }
-    own += column;
+    const bool joins = j > 0 && parent_[j - 1] == j && count[j - 1] == count[j] + 1;
+    if (!joins) first_column_[supernodes_++] = j;
     of_column_[j] = supernodes_ - 1;
   }
   first_column_[supernodes_] = columns_;
-  for (int32_t s = 0; s < supernodes_; ++s) {
-    const int32_t width = first_column_[s + 1] - first_column_[s];
-    total += triangle(width) + static_cast<int64_t>(width) * count[first_column_[s + 1] - 1];
-  }
-  return total;
 }
 
 void BlockCholesky::place_supernodes(Span<const int32_t> count) {
@@ -140,9 +116,61 @@ Status BlockCholesky::analyze(Span<const int32_t> column_start, Span<const int32
     ++needed_blocks_;
   });
   if (needed_blocks_ > capacity_.factor_blocks) return Status::kCapacity;
-  if (choose_supernodes(count, true) > capacity_.factor_blocks) choose_supernodes(count, false);
+  choose_supernodes(count);
   place_supernodes(count);
+  locate_blocks(column_start, rows);
+  mark_all_stale();
   return Status::kOk;
+}
+
+void BlockCholesky::locate_blocks(Span<const int32_t> column_start, Span<const int32_t> rows) {
+  for (int32_t s = 0; s < supernodes_; ++s) {
+    const int32_t first = first_column_[s];
+    const int32_t width = first_column_[s + 1] - first;
+    for (int32_t k = 0; k < width; ++k) {
+      const int32_t column = first + k;
+      diagonal_[column] = block_start_[s] + triangle(k) + k;
+      int32_t r = row_start_[s];  // both row lists ascend
+      for (int32_t p = column_start[column]; p < column_start[column + 1]; ++p) {
+        if (rows[p] < first + width) {
+          off_diagonal_[p] = block_start_[s] + triangle(rows[p] - first) + k;
+          continue;
+        }
+        while (rows_[r] != rows[p]) ++r;
+        off_diagonal_[p] = block_start_[s] + triangle(width) + (r - row_start_[s]) * width + k;
+      }
+    }
+  }
+}
+
+void BlockCholesky::mark_stale(int32_t column) {
+  for (int32_t s = of_column_[column]; s != -1 && stale_[s] == 0; s = parent_supernode(s)) {
+    stale_[s] = 1;
+  }
+}
+
+void BlockCholesky::mark_all_stale() {
+  for (int32_t s = 0; s < supernodes_; ++s) stale_[s] = 1;
+}
+
+void BlockCholesky::clear_stale() {
+  int32_t begin = 0;  // of a stretch of stale blocks that follow each other
+  int32_t end = 0;
+  const auto clear = [&]() {
+    const size_t bytes = static_cast<size_t>(end - begin) * sizeof(Block);
+    if (bytes > 0) std::memset(static_cast<void*>(&blocks_[begin]), 0, bytes);
+  };
+  for (int32_t s = 0; s < supernodes_; ++s) {
+    if (stale_[s] == 0) continue;
+    if (block_start_[s] != end) {
+      clear();
+      begin = block_start_[s];
+      end = begin;
+    }
+    const int32_t width = first_column_[s + 1] - first_column_[s];
+    end += triangle(width) + width * (row_start_[s + 1] - row_start_[s]);
+  }
+  clear();
 }
 
 Supernodes BlockCholesky::supernodes() const {
@@ -150,18 +178,31 @@ Supernodes BlockCholesky::supernodes() const {
           row_start_.data(), rows_.data(),         block_start_.data()};
 }
 
-Status BlockCholesky::factorize(const BlockMatrixView& H, double lambda) {
-  UNISIM_CHECK(H.diagonal.size() == columns_);
-  const SupernodeLists lists = {first_.data(), next_.data(), position_.data(), place_.data()};
-  const SupernodalKernels& kernels = UNISIM_DISPATCH(kSupernodal);
-  bad_column_ = kernels.factorize(supernodes(), plain(H), lambda, lists, blocks_.data());
-  return bad_column_ < 0 ? Status::kOk : Status::kNumerical;
+Status BlockCholesky::factorize(double lambda, Span<BlockVector> x) {
+  FactorTask task;
+  task.S = supernodes();
+  task.lists = {first_.data(), next_.data(), position_.data(), place_.data()};
+  task.stale = stale_.data();
+  task.lambda = lambda;
+  task.blocks = blocks_.data();
+  task.H_diagonal = H_diagonal_.data();
+  task.x = x.data();
+  bad_column_ = UNISIM_DISPATCH(kSupernodal).factorize(task);
+  if (bad_column_ >= 0) {
+    mark_all_stale();
+    return Status::kNumerical;
+  }
+  for (int32_t s = 0; s < supernodes_; ++s) stale_[s] = 0;
+  return Status::kOk;
+}
+
+void BlockCholesky::backward(Span<BlockVector> x) const {
+  UNISIM_DISPATCH(kSupernodal).backward(supernodes(), blocks_.data(), 0, supernodes_, x.data());
 }
 
 void BlockCholesky::solve(Span<BlockVector> x) const {
-  const SupernodalKernels& kernels = UNISIM_DISPATCH(kSupernodal);
-  kernels.forward(supernodes(), blocks_.data(), 0, supernodes_, x.data());
-  kernels.backward(supernodes(), blocks_.data(), 0, supernodes_, x.data());
+  UNISIM_DISPATCH(kSupernodal).forward(supernodes(), blocks_.data(), 0, supernodes_, x.data());
+  backward(x);
 }
 
 int32_t BlockCholesky::parent_supernode(int32_t s) const {

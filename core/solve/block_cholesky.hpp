@@ -7,49 +7,60 @@
 #include "core/base/arena.hpp"
 #include "core/base/eigen_types.hpp"
 #include "core/base/status.hpp"
+#include "core/solve/assembly.hpp"
 #include "core/solve/block.hpp"
 #include "core/solve/solver_capacity.hpp"
 #include "core/solve/supernodes.hpp"
 
 namespace unisim {
 
-/// Lower triangle of a symmetric block matrix, laid out as in BlockPattern. Of the diagonal blocks
-/// only the lower triangles are read.
-struct BlockMatrixView {
-  Span<const int32_t> column_start;  ///< columns + 1
-  Span<const int32_t> rows;          ///< row of each off-diagonal block, > its column
-  Span<const Block> diagonal;        ///< columns
-  Span<const Block> off_diagonal;    ///< as rows
-};
-
 /// H + lambda diag(H) = L L', supernodal and left-looking, in the column order of H (best a
 /// postorder of the elimination tree: only neighbouring columns can share a supernode).
 ///
-/// analyze() once per structure, factorize() once per matrix, solve() as often as wanted.
+/// analyze() once per structure; then, as often as wanted: clear_stale(), assemble H into
+/// assembly(), factorize(), solve(). L overwrites H. Where only some columns of H have changed,
+/// mark_stale() them instead of all: what is not above them in the elimination tree keeps its part
+/// of L.
 class BlockCholesky {
  public:
   BlockCholesky() = default;
   BlockCholesky(Arena& arena, const SolverCapacity& capacity);
 
-  /// Elimination tree and supernodes of L; time linear in the blocks of L.
+  /// Elimination tree and supernodes of L; time linear in the blocks of L. All columns are stale.
+  /// @param column_start, rows structure of H as in BlockPattern
   /// @return kOk; kCapacity when H or L has more blocks than declared: needed_blocks() says how
   /// many
   Status analyze(Span<const int32_t> column_start, Span<const int32_t> rows);
 
-  /// Blocks of L, diagonal included, for the structure last handed to analyze(); without those
-  /// that wider supernodes add where there is room.
+  /// Blocks of L, diagonal included, for the structure last handed to analyze().
   int64_t needed_blocks() const { return needed_blocks_; }
 
-  /// Numeric factorisation of H + lambda diag(H), same structure as analyzed.
+  /// H has changed in this column: it and all above it in the tree will be factorised anew.
+  void mark_stale(int32_t column);
+  void mark_all_stale();
+  /// Zero the blocks of stale columns, to assemble H anew there.
+  void clear_stale();
+  Assembly assembly() {
+    return {blocks_.data(), diagonal_.data(), off_diagonal_.data(), of_column_.data(),
+            stale_.data()};
+  }
+
+  /// Numeric factorisation of H + lambda diag(H) where it is stale; nothing is stale afterwards.
   /// @return kOk; kNumerical when a pivot is not finite or not above 1e-13 of its diagonal element:
-  ///         bad_column() says where, and there is no factor until the next success
-  Status factorize(const BlockMatrixView& H, double lambda);
+  ///         bad_column() says where; there is no factor then and all columns are stale
+  Status factorize(double lambda) { return factorize(lambda, Span<BlockVector>()); }
+  /// factorize(), and x := L^-1 x while L is at hand: backward() completes the solution.
+  Status factorize(double lambda, Span<BlockVector> x);
 
   /// Column of the pivot that made factorize() fail, -1 after a success.
   int32_t bad_column() const { return bad_column_; }
+  /// The diagonal of H, before damping, of a factorised column.
+  const BlockVector& H_diagonal(int32_t column) const { return H_diagonal_[column]; }
 
   /// x := (L L')^-1 x. Needs a factor.
   void solve(Span<BlockVector> x) const;
+  /// x := L'^-1 x. Needs a factor.
+  void backward(Span<BlockVector> x) const;
 
   /// Diagonal block of (L L')^-1; touches only the path from the column to the root of the tree.
   /// @param work columns vectors, overwritten
@@ -59,8 +70,9 @@ class BlockCholesky {
   void find_parents(Span<const int32_t> column_start, Span<const int32_t> rows);
   template <class Visit>
   void visit_rows(Visit visit);
-  int64_t choose_supernodes(Span<const int32_t> count, bool relaxed);
+  void choose_supernodes(Span<const int32_t> count);
   void place_supernodes(Span<const int32_t> count);
+  void locate_blocks(Span<const int32_t> column_start, Span<const int32_t> rows);
   Supernodes supernodes() const;
   int32_t parent_supernode(int32_t s) const;
 
@@ -75,6 +87,10 @@ class BlockCholesky {
   Span<int32_t> row_start_;
   Span<int32_t> rows_;
   Span<int32_t> block_start_;
+  Span<int32_t> diagonal_;  // see Assembly
+  Span<int32_t> off_diagonal_;
+  Span<uint8_t> stale_;
+  Span<BlockVector> H_diagonal_;
   Span<int32_t> parent_;   // elimination tree of the columns
   Span<int32_t> H_start_;  // H by rows, for the analysis
   Span<int32_t> H_columns_;

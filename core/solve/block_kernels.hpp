@@ -16,6 +16,9 @@ inline constexpr int kLane = 2;
 #endif
 inline constexpr int kLanes = kBlockRows / kLane;
 
+// Keeps what the loops index in registers.
+#define UNISIM_UNROLL _Pragma("GCC unroll 8")
+
 using Lane = double __attribute__((vector_size(kLane * sizeof(double))));
 
 UNISIM_ALWAYS_INLINE Lane* lanes(double* column) { return reinterpret_cast<Lane*>(column); }
@@ -65,56 +68,67 @@ UNISIM_ALWAYS_INLINE void subtract_grams(Block& C, const Block* A, int count) {
   subtract_products_columns<4, 3, true>(C, A, A, count);
 }
 
-/// C := C L'^-1 for the factor L of a diagonal block as factorize_diagonal() leaves it.
-UNISIM_ALWAYS_INLINE void solve_right(Block& C, const Block& L) {
-  for (int j = 0; j < kTangentDim; ++j) {
-    Lane c[kLanes];
-    for (int l = 0; l < kLanes; ++l) c[l] = lanes(C.v + kBlockRows * j)[l];
-    for (int k = 0; k < j; ++k) {
-      const double factor = L.at(j, k);
-      for (int l = 0; l < kLanes; ++l) c[l] -= lanes(C.v + kBlockRows * k)[l] * factor;
-    }
-    const double inverse = L.at(j, j);
-    for (int l = 0; l < kLanes; ++l) lanes(C.v + kBlockRows * j)[l] = c[l] * inverse;
-  }
-}
+alignas(64) inline constexpr double kUnitRows[kTangentDim][kBlockRows] = {
+    {1, 0, 0, 0, 0, 0, 0, 0}, {0, 1, 0, 0, 0, 0, 0, 0}, {0, 0, 1, 0, 0, 0, 0, 0},
+    {0, 0, 0, 1, 0, 0, 0, 0}, {0, 0, 0, 0, 1, 0, 0, 0}, {0, 0, 0, 0, 0, 1, 0, 0},
+    {0, 0, 0, 0, 0, 0, 1, 0}};
 
-/// Lower triangle of D := its Cholesky factor, in place; the diagonal holds the inverses of those
-/// of L. Above the diagonal D is left with numbers of no meaning.
+/// D := L^-1 for the Cholesky factor L of D, of which the lower triangle is read. The inverse is
+/// stored by rows, the only block that is: a solve with it is a product, whose elements do not
+/// wait for each other.
 /// @param floor pivots at or below their floor count as not positive
 /// @return false when a pivot is not positive or not finite
-UNISIM_ALWAYS_INLINE bool factorize_diagonal(Block& D, const double* floor) {
+UNISIM_ALWAYS_INLINE bool invert_factor(Block& D, const double* floor) {
+  // D = M diag(d) M' with unit M: the square roots come last and all at once.
+  Lane c[kTangentDim][kLanes];
+  alignas(64) double M[kTangentDim][kBlockRows];
+  double d[kTangentDim];
+  UNISIM_UNROLL
   for (int j = 0; j < kTangentDim; ++j) {
-    Lane* column = lanes(D.v + kBlockRows * j);
-    Lane d[kLanes];
-    for (int l = j / kLane; l < kLanes; ++l) d[l] = column[l];
-    for (int k = 0; k < j; ++k) {
-      const double factor = D.at(j, k);
-      for (int l = j / kLane; l < kLanes; ++l) d[l] -= lanes(D.v + kBlockRows * k)[l] * factor;
-    }
-    const double pivot = d[j / kLane][j % kLane];
+    for (int l = 0; l < kLanes; ++l) c[j][l] = lanes(D.v + kBlockRows * j)[l];
+  }
+  UNISIM_UNROLL
+  for (int j = 0; j < kTangentDim; ++j) {
+    const double pivot = c[j][j / kLane][j % kLane];
     if (!(pivot > floor[j]) || !__builtin_isfinite(pivot)) return false;
-    const double inverse = 1.0 / __builtin_sqrt(pivot);
-    for (int l = j / kLane; l < kLanes; ++l) column[l] = d[l] * inverse;
-    D.at(j, j) = inverse;
+    d[j] = pivot;
+    const double inverse = 1.0 / pivot;
+    for (int l = 0; l < kLanes; ++l) lanes(M[j])[l] = c[j][l] * inverse;
+    UNISIM_UNROLL
+    for (int k = j + 1; k < kTangentDim; ++k) {
+      for (int l = k / kLane; l < kLanes; ++l) c[k][l] -= c[j][l] * M[j][k];
+    }
+  }
+  UNISIM_UNROLL
+  for (int i = 0; i < kTangentDim; ++i) {
+    Lane row[kLanes];
+    for (int l = 0; l < kLanes; ++l) row[l] = lanes(kUnitRows[i])[l];
+    UNISIM_UNROLL
+    for (int k = 0; k < i; ++k) {
+      for (int l = 0; l <= k / kLane; ++l) row[l] -= lanes(D.v + kBlockRows * k)[l] * M[k][i];
+    }
+    for (int l = 0; l < kLanes; ++l) lanes(D.v + kBlockRows * i)[l] = row[l];
+  }
+  UNISIM_UNROLL
+  for (int i = 0; i < kTangentDim; ++i) {
+    const double scale = 1.0 / __builtin_sqrt(d[i]);
+    for (int l = 0; l < kLanes; ++l) lanes(D.v + kBlockRows * i)[l] *= scale;
   }
   return true;
 }
 
-/// x := L^-1 x for a factor of factorize_diagonal().
-UNISIM_ALWAYS_INLINE void solve_lower(const Block& L, BlockVector& x) {
-  for (int j = 0; j < kTangentDim; ++j) {
-    x.v[j] *= L.at(j, j);
-    for (int i = j + 1; i < kTangentDim; ++i) x.v[i] -= L.at(i, j) * x.v[j];
-  }
-}
-
-/// x := L'^-1 x for a factor of factorize_diagonal().
-UNISIM_ALWAYS_INLINE void solve_lower_transposed(const Block& L, BlockVector& x) {
+/// C := C L'^-1 for an inverse of invert_factor().
+UNISIM_ALWAYS_INLINE void solve_right(Block& C, const Block& L_inverse) {
+  UNISIM_UNROLL
   for (int j = kTangentDim - 1; j >= 0; --j) {
-    double sum = x.v[j];
-    for (int i = j + 1; i < kTangentDim; ++i) sum -= L.at(i, j) * x.v[i];
-    x.v[j] = sum * L.at(j, j);
+    const double* row = L_inverse.v + kBlockRows * j;
+    Lane c[kLanes];
+    for (int l = 0; l < kLanes; ++l) c[l] = lanes(C.v)[l] * row[0];
+    UNISIM_UNROLL
+    for (int k = 1; k <= j; ++k) {
+      for (int l = 0; l < kLanes; ++l) c[l] += lanes(C.v + kBlockRows * k)[l] * row[k];
+    }
+    for (int l = 0; l < kLanes; ++l) lanes(C.v + kBlockRows * j)[l] = c[l];
   }
 }
 
@@ -157,6 +171,26 @@ struct TransposedSum {
     }
   }
 };
+
+/// x := L^-1 x for an inverse of invert_factor().
+UNISIM_ALWAYS_INLINE void solve_lower(const Block& L_inverse, BlockVector& x) {
+  BlockVector y = {};
+  TransposedSum sum;
+  sum.clear();
+  sum.add(L_inverse, x);
+  sum.subtract_from(y);
+  for (int l = 0; l < kLanes; ++l) lanes(x.v)[l] = -lanes(y.v)[l];
+}
+
+/// x := L'^-1 x for an inverse of invert_factor().
+UNISIM_ALWAYS_INLINE void solve_lower_transposed(const Block& L_inverse, BlockVector& x) {
+  Lane y[kLanes];
+  for (int l = 0; l < kLanes; ++l) y[l] = lanes(L_inverse.v)[l] * x.v[0];
+  for (int k = 1; k < kTangentDim; ++k) {
+    for (int l = 0; l < kLanes; ++l) y[l] += lanes(L_inverse.v + kBlockRows * k)[l] * x.v[k];
+  }
+  for (int l = 0; l < kLanes; ++l) lanes(x.v)[l] = y[l];
+}
 
 }  // namespace UNISIM_ISA
 }  // namespace unisim

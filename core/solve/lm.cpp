@@ -62,6 +62,12 @@ Status LevenbergMarquardt::prepare(const Graph& graph, const LmObserver& observe
   return status;
 }
 
+double LevenbergMarquardt::linearize(const Graph& graph) {
+  cholesky_.mark_all_stale();
+  cholesky_.clear_stale();
+  return equations_.linearize(graph, pattern_, cholesky_.assembly());
+}
+
 Status LevenbergMarquardt::optimize(Graph* graph, const LmOptions& options, LmReport* report) {
   *report = LmReport();
   if (!valid_options(options)) return Status::kInvalidArgument;
@@ -71,7 +77,7 @@ Status LevenbergMarquardt::optimize(Graph* graph, const LmOptions& options, LmRe
   if (!is_ok(status)) return status;
   undamped_revision_ = 0;
   tell(options.observer, LmPhase::kLinearize, *report);
-  report->initial_cost = equations_.linearize(*graph, pattern_);
+  report->initial_cost = linearize(*graph);
   report->final_cost = report->initial_cost;
   if (!std::isfinite(report->initial_cost)) {
     report->stop = LmStop::kNoDescent;
@@ -95,6 +101,8 @@ LmStop LevenbergMarquardt::iterate(Graph* graph, const LmOptions& options, LmRep
     factored = find_step(options, *report);
     if (!factored) {
       report->bad_node = pattern_.node_of_column(std::max(cholesky_.bad_column(), 0));
+      tell(options.observer, LmPhase::kLinearize, *report);
+      linearize(*graph);
       damping.reject();
       continue;
     }
@@ -102,7 +110,7 @@ LmStop LevenbergMarquardt::iterate(Graph* graph, const LmOptions& options, LmRep
     const double predicted = predicted_decrease(damping.lambda);
     const bool moved = apply_step(graph);
     tell(options.observer, LmPhase::kLinearize, *report);
-    const double trial = moved ? equations_.linearize(*graph, pattern_) : cost;
+    const double trial = moved ? linearize(*graph) : cost;
     if (moved && std::isfinite(trial) && trial <= cost) {
       damping.accept(predicted > 0.0 ? (cost - trial) / predicted : 1.0);
       report->final_cost = trial;
@@ -122,7 +130,7 @@ LmStop LevenbergMarquardt::iterate(Graph* graph, const LmOptions& options, LmRep
       return LmStop::kConverged;
     }
     tell(options.observer, LmPhase::kLinearize, *report);
-    equations_.linearize(*graph, pattern_);
+    linearize(*graph);
     damping.reject();
   }
   return factored ? LmStop::kBudget : LmStop::kNotPositive;
@@ -130,14 +138,14 @@ LmStop LevenbergMarquardt::iterate(Graph* graph, const LmOptions& options, LmRep
 
 bool LevenbergMarquardt::find_step(const LmOptions& options, const LmReport& report) {
   tell(options.observer, LmPhase::kFactorize, report);
-  if (!is_ok(cholesky_.factorize(equations_.H(pattern_), report.lambda))) return false;
-  tell(options.observer, LmPhase::kSolve, report);
   const Span<BlockVector> step = step_.subspan(0, pattern_.columns());
   const Span<const BlockVector> g = equations_.gradient();
   for (int32_t j = 0; j < step.size(); ++j) {
     for (int d = 0; d < kBlockRows; ++d) step[j].v[d] = -g[j].v[d];
   }
-  cholesky_.solve(step);
+  if (!is_ok(cholesky_.factorize(report.lambda, step))) return false;
+  tell(options.observer, LmPhase::kSolve, report);
+  cholesky_.backward(step);
   tell(options.observer, LmPhase::kStep, report);
   double largest = 0.0;
   double log_scale = 0.0;
@@ -162,14 +170,13 @@ bool LevenbergMarquardt::find_step(const LmOptions& options, const LmReport& rep
 // the product H dx is not needed: dx' H dx = -k g' dx - lambda dx' diag(H) dx.
 double LevenbergMarquardt::predicted_decrease(double lambda) const {
   const Span<const BlockVector> g = equations_.gradient();
-  const Span<const Block> diagonal = equations_.H(pattern_).diagonal;
   double along_gradient = 0.0;
   double damping = 0.0;
   for (int32_t j = 0; j < pattern_.columns(); ++j) {
     const BlockVector& dx = step_[j];
     for (int d = 0; d < kTangentDim; ++d) {
       along_gradient -= g[j].v[d] * dx.v[d];
-      damping += lambda * diagonal[j].at(d, d) * dx.v[d] * dx.v[d];
+      damping += lambda * cholesky_.H_diagonal(j).v[d] * dx.v[d] * dx.v[d];
     }
   }
   return (1.0 - 0.5 * shortened_) * along_gradient + 0.5 * damping;
@@ -201,8 +208,8 @@ Status LevenbergMarquardt::marginal_covariance(const Graph& graph, int32_t node,
   if (!is_ok(status)) return status;
   if (undamped_revision_ != graph.revision()) {
     undamped_revision_ = 0;
-    equations_.linearize(graph, pattern_);
-    status = cholesky_.factorize(equations_.H(pattern_), 0.0);
+    linearize(graph);
+    status = cholesky_.factorize(0.0);
     if (!is_ok(status)) return status;
     undamped_revision_ = graph.revision();
   }

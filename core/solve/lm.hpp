@@ -66,6 +66,7 @@ class LevenbergMarquardt {
   const BlockPattern& pattern() const { return pattern_; }
 
  private:
+  double linearize(const Graph& graph);
   Status prepare(const Graph& graph, const LmObserver& observer);
   LmStop iterate(Graph* graph, const LmOptions& options, LmReport* report);
   bool find_step(const LmOptions& options, const LmReport& report);

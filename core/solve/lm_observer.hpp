@@ -11,8 +11,8 @@ enum class LmPhase : int32_t {
   kOrder,      ///< read the structure, order the columns
   kAnalyze,    ///< elimination tree and structure of the factor
   kLinearize,  ///< residuals, Jacobian products, their sums in H and g; gives the cost too
-  kFactorize,  ///< numeric factorisation
-  kSolve,      ///< triangular solves
+  kFactorize,  ///< numeric factorisation, with the forward solve
+  kSolve,      ///< backward solve
   kStep,       ///< judge the step, move the poses
   kAccept,     ///< a state has been taken: the first one, then each lower cost
   kEnd         ///< back to the caller; not called when no iteration was tried

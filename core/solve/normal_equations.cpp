@@ -2,7 +2,6 @@
 // Linearised cost of a graph.
 #include "core/solve/normal_equations.hpp"
 
-#include <cstring>
 #include <limits>
 
 #include "core/graph/scale_ratio.hpp"
@@ -24,45 +23,91 @@ const double* numbers(const Sim3& T) { return T.q.coeffs().data(); }
 
 }  // namespace
 
-// One block more than the structure has: what an edge would add to a fixed node goes there.
-NormalEquations::NormalEquations(Arena& arena, const SolverCapacity& capacity)
-    : diagonal_(arena.take<Block>(capacity.nodes + 1)),
-      off_diagonal_(arena.take<Block>(capacity.pairs + 1)),
-      gradient_(arena.take<BlockVector>(capacity.nodes + 1)) {}
+/// Where an edge adds: the sinks for what is fixed or not wanted.
+struct NormalEquations::Ends {
+  Block* diagonal_a;
+  Block* diagonal_b;
+  Block* coupling;
+  BlockVector* gradient_a;
+  BlockVector* gradient_b;
+  bool a_is_later;
+};
 
-void NormalEquations::clear(const BlockPattern& pattern) {
-  columns_ = pattern.columns();
-  const size_t columns = static_cast<size_t>(columns_);
-  const size_t pairs = static_cast<size_t>(pattern.pairs());
-  std::memset(static_cast<void*>(diagonal_.data()), 0, columns * sizeof(Block));
-  std::memset(static_cast<void*>(off_diagonal_.data()), 0, pairs * sizeof(Block));
-  std::memset(static_cast<void*>(gradient_.data()), 0, columns * sizeof(BlockVector));
+// The last element of the gradient and the block are sinks: what is added there nobody reads.
+NormalEquations::NormalEquations(Arena& arena, const SolverCapacity& capacity)
+    : gradient_(arena.take<BlockVector>(capacity.nodes + 1)),
+      sink_(arena.take<Block>(1)),
+      edge_cost_(arena.take<double>(capacity.edges)) {}
+
+NormalEquations::Ends NormalEquations::ends_of(const Graph& graph, int32_t id) const {
+  const Edge& edge = graph.edge(id);
+  const EdgeSlot place = pattern_->edge_slot(id);
+  const int32_t a = pattern_->column_of_node(edge.a);
+  const int32_t b = pattern_->column_of_node(edge.b);
+  const bool wants_a = a >= 0 && target_.wants(a);
+  const bool wants_b = b >= 0 && target_.wants(b);
+  Block* const sink = sink_.data();
+  BlockVector* const no_gradient = &gradient_[gradient_.size() - 1];
+  Ends ends = {sink, sink, sink, no_gradient, no_gradient, place.a_is_later};
+  if (wants_a) {
+    ends.diagonal_a = target_.blocks + target_.diagonal[a];
+    ends.gradient_a = &gradient_[a];
+  }
+  if (wants_b) {
+    ends.diagonal_b = target_.blocks + target_.diagonal[b];
+    ends.gradient_b = &gradient_[b];
+  }
+  if (place.slot >= 0 && (place.a_is_later ? wants_b : wants_a)) {
+    ends.coupling = target_.blocks + target_.off_diagonal[place.slot];
+  }
+  return ends;
 }
 
-double NormalEquations::linearize(const Graph& graph, const BlockPattern& pattern) {
-  clear(pattern);
-  double cost = 0.0;
+bool NormalEquations::clear_wanted() {
+  bool all = true;
+  for (int32_t column = 0; column < columns_; ++column) {
+    if (target_.wants(column)) {
+      gradient_[column] = BlockVector{};
+    } else {
+      all = false;
+    }
+  }
+  gradient_[gradient_.size() - 1] = BlockVector{};
+  sink_[0] = Block{};
+  return all;
+}
+
+double NormalEquations::linearize(const Graph& graph, const BlockPattern& pattern,
+                                  const Assembly& target) {
+  pattern_ = &pattern;
+  target_ = target;
+  columns_ = pattern.columns();
+  const bool all = clear_wanted();
   QuadCollector quads;
   for (int32_t id = 0; id < graph.edge_end(); ++id) {
     const Edge& edge = graph.edge(id);
-    if (!edge.active()) continue;
+    if (!edge.active()) {
+      edge_cost_[id] = 0.0;
+      continue;
+    }
+    const int32_t a = pattern.column_of_node(edge.a);
+    const int32_t b = pattern.column_of_node(edge.b);
+    if (!all && !(a >= 0 && target.wants(a)) && !(b >= 0 && target.wants(b))) continue;
     if (is_pose_factor(edge.kind)) {
-      add_pose_edge(graph, pattern, id, &quads);
+      add_pose_edge(graph, id, &quads);
     } else {
-      cost += add_scale_edge(graph, pattern, id);
+      edge_cost_[id] = add_scale_edge(graph, id);
     }
   }
-  return cost + quads.finish();
+  quads.finish();
+  double cost = 0.0;
+  for (int32_t id = 0; id < graph.edge_end(); ++id) cost += edge_cost_[id];
+  return cost;
 }
 
-void NormalEquations::add_pose_edge(const Graph& graph, const BlockPattern& pattern, int32_t id,
-                                    QuadCollector* quads) {
+void NormalEquations::add_pose_edge(const Graph& graph, int32_t id, QuadCollector* quads) {
   const Edge& edge = graph.edge(id);
-  const int32_t a = pattern.column_of_node(edge.a);
-  const int32_t b = pattern.column_of_node(edge.b);
-  const EdgeSlot place = pattern.edge_slot(id);
-  const int32_t no_column = diagonal_.size() - 1;
-  const int32_t no_slot = off_diagonal_.size() - 1;
+  const Ends ends = ends_of(graph, id);
   QuadEdge out;
   out.A = numbers(graph.pose(edge.a));
   out.B = numbers(graph.pose(edge.b));
@@ -73,40 +118,27 @@ void NormalEquations::add_pose_edge(const Graph& graph, const BlockPattern& patt
   out.delta = edge.kernel.kind == RobustKernelKind::kNone ? std::numeric_limits<double>::infinity()
                                                           : edge.kernel.delta;
   out.geman_mcclure = edge.kernel.kind == RobustKernelKind::kGemanMcClure;
-  out.H_aa = &diagonal_[a >= 0 ? a : no_column];
-  out.H_bb = &diagonal_[b >= 0 ? b : no_column];
-  out.g_a = gradient_[a >= 0 ? a : no_column].v;
-  out.g_b = gradient_[b >= 0 ? b : no_column].v;
-  out.H_ab = &off_diagonal_[place.slot >= 0 ? place.slot : no_slot];
-  quads->add(shape_of(edge), place.a_is_later, out);
+  out.H_aa = ends.diagonal_a;
+  out.H_bb = ends.diagonal_b;
+  out.H_ab = ends.coupling;
+  out.g_a = ends.gradient_a->v;
+  out.g_b = ends.gradient_b->v;
+  out.cost = &edge_cost_[id];
+  quads->add(shape_of(edge), ends.a_is_later, out);
 }
 
-double NormalEquations::add_scale_edge(const Graph& graph, const BlockPattern& pattern,
-                                       int32_t id) {
+double NormalEquations::add_scale_edge(const Graph& graph, int32_t id) {
   const Edge& edge = graph.edge(id);
   const double e = scale_ratio_residual(graph.pose(edge.a), graph.pose(edge.b), edge.log_ratio);
   const RobustCost robust = robust_cost(edge.kernel, edge.weight() * e * e);
   const double w = edge.weight() * robust.weight;
-  const int32_t a = pattern.column_of_node(edge.a);
-  const int32_t b = pattern.column_of_node(edge.b);
-  if (a >= 0) {
-    diagonal_[a].at(kLogScale, kLogScale) += w;
-    gradient_[a].v[kLogScale] -= w * e;
-  }
-  if (b >= 0) {
-    diagonal_[b].at(kLogScale, kLogScale) += w;
-    gradient_[b].v[kLogScale] += w * e;
-  }
-  const EdgeSlot place = pattern.edge_slot(id);
-  if (place.slot >= 0) off_diagonal_[place.slot].at(kLogScale, kLogScale) -= w;
+  const Ends ends = ends_of(graph, id);
+  ends.diagonal_a->at(kLogScale, kLogScale) += w;
+  ends.gradient_a->v[kLogScale] -= w * e;
+  ends.diagonal_b->at(kLogScale, kLogScale) += w;
+  ends.gradient_b->v[kLogScale] += w * e;
+  ends.coupling->at(kLogScale, kLogScale) -= w;
   return robust.cost;
-}
-
-BlockMatrixView NormalEquations::H(const BlockPattern& pattern) const {
-  return {pattern.column_start(),
-          pattern.rows(),
-          {diagonal_.data(), pattern.columns()},
-          {off_diagonal_.data(), pattern.pairs()}};
 }
 
 }  // namespace unisim

@@ -6,39 +6,42 @@
 
 #include "core/base/arena.hpp"
 #include "core/graph/graph.hpp"
+#include "core/solve/assembly.hpp"
 #include "core/solve/block.hpp"
-#include "core/solve/block_cholesky.hpp"
 #include "core/solve/block_pattern.hpp"
 
 namespace unisim {
 
 class QuadCollector;
 
-/// Values of H (IRLS weights included) and g on a BlockPattern.
+/// Puts H (IRLS weights included) and g together from the edges of a graph.
 class NormalEquations {
  public:
   NormalEquations() = default;
   NormalEquations(Arena& arena, const SolverCapacity& capacity);
 
-  /// Linearise all active edges at the present poses.
+  /// Linearise at the present poses the active edges that touch a wanted column, and add them to
+  /// its blocks, which are zero before. g and the cost of other edges stay as they were.
   /// @return cost of the graph, sum of rho(u); edges between two fixed nodes count too
-  double linearize(const Graph& graph, const BlockPattern& pattern);
+  double linearize(const Graph& graph, const BlockPattern& pattern, const Assembly& target);
 
-  /// H of the last linearize().
-  BlockMatrixView H(const BlockPattern& pattern) const;
-  /// g of the last linearize(), one vector per column.
+  /// g, one vector per column.
   Span<const BlockVector> gradient() const { return {gradient_.data(), columns_}; }
 
  private:
-  void add_pose_edge(const Graph& graph, const BlockPattern& pattern, int32_t id,
-                     QuadCollector* quads);
-  double add_scale_edge(const Graph& graph, const BlockPattern& pattern, int32_t id);
-  void clear(const BlockPattern& pattern);
+  /// @return all columns are wanted
+  bool clear_wanted();
+  void add_pose_edge(const Graph& graph, int32_t id, QuadCollector* quads);
+  double add_scale_edge(const Graph& graph, int32_t id);
+  struct Ends;
+  Ends ends_of(const Graph& graph, int32_t id) const;
 
+  const BlockPattern* pattern_ = nullptr;  // of the present call
+  Assembly target_ = {};
   int32_t columns_ = 0;
-  Span<Block> diagonal_;
-  Span<Block> off_diagonal_;
   Span<BlockVector> gradient_;
+  Span<Block> sink_;
+  Span<double> edge_cost_;
 };
 
 }  // namespace unisim

@@ -129,11 +129,10 @@ UNISIM_ALWAYS_INLINE void normal_of(const PoseQuad& quad, int first, PackNormal*
 // Four edges in one pack or two. The blocks of a come first, then those of b: two edges may share
 // them, and the order of a sum decides its last digits.
 template <QuadShape kShape>
-double add(const PoseQuad& quad) {
+void add(const PoseQuad& quad) {
   constexpr int kPacks = PoseQuad::kEdges / kPackLanes;
   PackNormal normal[kPacks];
   Pack w[kPacks];
-  double cost[PoseQuad::kEdges];
   for (int i = 0; i < kPacks; ++i) {
     const int first = i * kPackLanes;
     normal_of<kShape>(quad, first, &normal[i]);
@@ -141,7 +140,7 @@ double add(const PoseQuad& quad) {
     const PackRobustCost robust = robust_cost(
         load(quad.delta + first), load(quad.geman_mcclure + first), weight * normal[i].u_squared);
     w[i] = weight * robust.weight;
-    for (int lane = 0; lane < kPackLanes; ++lane) cost[first + lane] = robust.cost[lane];
+    for (int lane = 0; lane < kPackLanes; ++lane) *quad.cost[first + lane] = robust.cost[lane];
   }
   for (int i = 0; i < kPacks; ++i) {
     add_symmetric(quad.H_aa + i * kPackLanes, w[i], normal[i].H_aa);
@@ -153,12 +152,11 @@ double add(const PoseQuad& quad) {
     const PackBlocks& U = normal[i].minus_H_ba;
     add_block(quad.H_ab + i * kPackLanes, -w[i], quad.a_is_later ? transposed(U) : U);
   }
-  return cost[0] + cost[1] + cost[2] + cost[3];
 }
 
 }  // namespace
 
-double add_pose_quad(const PoseQuad& quad) {
+void add_pose_quad(const PoseQuad& quad) {
   switch (quad.shape) {
     case QuadShape::kOneMeasurement:
       return add<QuadShape::kOneMeasurement>(quad);
@@ -169,7 +167,6 @@ double add_pose_quad(const PoseQuad& quad) {
     case QuadShape::kRigid:
       return add<QuadShape::kRigid>(quad);
   }
-  return 0.0;
 }
 
 }  // namespace UNISIM_ISA

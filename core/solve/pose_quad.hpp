@@ -38,18 +38,18 @@ struct PoseQuad {
   Block* H_ab[kEdges];
   double* g_a[kEdges];
   double* g_b[kEdges];
+  double* cost[kEdges];  ///< rho(u) of each edge, overwritten
 };
 
 namespace baseline {
-double add_pose_quad(const PoseQuad& quad);
+void add_pose_quad(const PoseQuad& quad);
 }
 namespace avx2 {
-double add_pose_quad(const PoseQuad& quad);
+void add_pose_quad(const PoseQuad& quad);
 }
 
 /// Adds w J'J and w J'e of four edges to their blocks, in the order of the quad. Of diagonal blocks
 /// only the lower triangle has a meaning. Weight 0 makes an edge that adds nothing.
-/// @return their cost, sum of rho(u)
-inline double add_pose_quad(const PoseQuad& quad) { return UNISIM_DISPATCH(add_pose_quad(quad)); }
+inline void add_pose_quad(const PoseQuad& quad) { UNISIM_DISPATCH(add_pose_quad(quad)); }
 
 }  // namespace unisim

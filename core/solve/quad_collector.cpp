@@ -19,10 +19,11 @@ void put(const QuadEdge& edge, int32_t place, PoseQuad* quad) {
   quad->H_ab[place] = edge.H_ab;
   quad->g_a[place] = edge.g_a;
   quad->g_b[place] = edge.g_b;
+  quad->cost[place] = edge.cost;
 }
 
 // Fills a quad with its first edge at weight 0.
-void pad(int32_t count, PoseQuad* quad) {
+void pad(int32_t count, double* no_cost, PoseQuad* quad) {
   for (int32_t place = count; place < PoseQuad::kEdges; ++place) {
     quad->A[place] = quad->A[0];
     quad->B[place] = quad->B[0];
@@ -37,6 +38,7 @@ void pad(int32_t count, PoseQuad* quad) {
     quad->H_ab[place] = quad->H_ab[0];
     quad->g_a[place] = quad->g_a[0];
     quad->g_b[place] = quad->g_b[0];
+    quad->cost[place] = no_cost;
   }
 }
 
@@ -59,16 +61,13 @@ void QuadCollector::add(QuadShape shape, bool a_is_later, const QuadEdge& edge) 
 
 void QuadCollector::flush(Group* group) {
   if (group->count == 0) return;
-  pad(group->count, &group->quad);
-  cost_ += add_pose_quad(group->quad);
+  pad(group->count, &sink_, &group->quad);
+  add_pose_quad(group->quad);
   group->count = 0;
 }
 
-double QuadCollector::finish() {
+void QuadCollector::finish() {
   for (Group& group : groups_) flush(&group);
-  const double cost = cost_;
-  cost_ = 0.0;
-  return cost;
 }
 
 }  // namespace unisim

@@ -21,6 +21,7 @@ struct QuadEdge {
   Block* H_ab = nullptr;
   double* g_a = nullptr;
   double* g_b = nullptr;
+  double* cost = nullptr;
 };
 
 /// Adds edges to the normal equations, four of a shape at a time. The order of the sums depends on
@@ -31,8 +32,7 @@ class QuadCollector {
 
   void add(QuadShape shape, bool a_is_later, const QuadEdge& edge);
   /// Adds what is left.
-  /// @return cost of all edges since the last call
-  double finish();
+  void finish();
 
  private:
   struct Group {
@@ -42,7 +42,7 @@ class QuadCollector {
   void flush(Group* group);
 
   Group groups_[2 * kQuadShapes];
-  double cost_ = 0.0;
+  double sink_ = 0.0;  // cost of what fills a quad
 };
 
 }  // namespace unisim

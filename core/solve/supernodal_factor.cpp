@@ -2,8 +2,6 @@
 // Numeric phase of the supernodal block Cholesky factorisation; vectorised.
 #include "core/solve/supernodal_factor.hpp"
 
-#include <cstring>
-
 #include "core/solve/block_kernels.hpp"
 
 namespace unisim {
@@ -33,21 +31,20 @@ struct Run {
   }
 };
 
-// Puts the columns of H into the run's blocks; blocks that H lacks are zero.
-void load(const Run& J, const PlainBlockMatrix& H, double lambda, int32_t* place, Block* L) {
-  const int32_t blocks = triangle(J.width) + J.row_count * J.width;
-  std::memset(static_cast<void*>(L + J.offset), 0, static_cast<size_t>(blocks) * sizeof(Block));
-  for (int32_t k = 0; k < J.width; ++k) place[J.first + k] = k;
-  for (int32_t r = 0; r < J.row_count; ++r) place[J.rows[r]] = J.width + r;
+void damp(const Run& J, double lambda, BlockVector* H_diagonal, Block* L) {
   for (int32_t k = 0; k < J.width; ++k) {
-    const int32_t column = J.first + k;
-    Block& diagonal = L[J.row_offset(k) + k];
-    diagonal = H.diagonal[column];
-    for (int d = 0; d < kTangentDim; ++d) diagonal.at(d, d) *= 1.0 + lambda;
-    for (int32_t p = H.column_start[column]; p < H.column_start[column + 1]; ++p) {
-      L[J.row_offset(place[H.rows[p]]) + k] = H.off_diagonal[p];
+    Block& block = L[J.row_offset(k) + k];
+    double* before = H_diagonal[J.first + k].v;
+    for (int d = 0; d < kTangentDim; ++d) {
+      before[d] = block.at(d, d);
+      block.at(d, d) *= 1.0 + lambda;
     }
   }
+}
+
+void find_places(const Run& J, int32_t* place) {
+  for (int32_t k = 0; k < J.width; ++k) place[J.first + k] = k;
+  for (int32_t r = 0; r < J.row_count; ++r) place[J.rows[r]] = J.width + r;
 }
 
 // Subtracts what run K contributes to run J: its rows from `at` on, of which those before `end_at`
@@ -66,7 +63,7 @@ void update(const Run& J, const Run& K, int32_t at, int32_t end_at, const int32_
 }
 
 // Factorises the run's own columns. @return the column that failed, -1 if none
-int32_t finish(const Run& J, const PlainBlockMatrix& H, double lambda, Block* L) {
+int32_t finish(const Run& J, double lambda, const BlockVector* H_diagonal, Block* L) {
   const int32_t row_end = J.width + J.row_count;
   for (int32_t k = 0; k < J.width; ++k) {
     const Block* own = L + J.row_offset(k);
@@ -74,9 +71,9 @@ int32_t finish(const Run& J, const PlainBlockMatrix& H, double lambda, Block* L)
     subtract_grams(diagonal, own, k);
     double floor[kTangentDim];
     for (int d = 0; d < kTangentDim; ++d) {
-      floor[d] = kPivotFloor * (1.0 + lambda) * H.diagonal[J.first + k].at(d, d);
+      floor[d] = kPivotFloor * (1.0 + lambda) * H_diagonal[J.first + k].v[d];
     }
-    if (!factorize_diagonal(diagonal, floor)) return J.first + k;
+    if (!invert_factor(diagonal, floor)) return J.first + k;
     for (int32_t row = k + 1; row < row_end; ++row) {
       Block* blocks = L + J.row_offset(row);
       subtract_products(blocks[k], blocks, own, k);
@@ -95,65 +92,82 @@ void enlist(const Supernodes& S, const SupernodeLists& lists, int32_t s, int32_t
   lists.first[target] = s;
 }
 
-void update_from_list(const Supernodes& S, int32_t s, const SupernodeLists& lists, Block* L) {
-  const Run J(S, s);
+void update_from_list(const FactorTask& task, int32_t s) {
+  const SupernodeLists& lists = task.lists;
+  const Run J(task.S, s);
   const int32_t column_end = J.first + J.width;
   for (int32_t k = lists.first[s]; k != -1;) {
     const int32_t following = lists.next[k];
-    const Run K(S, k);
+    const Run K(task.S, k);
     const int32_t at = lists.position[k];
     int32_t end_at = at + 1;
     while (end_at < K.row_count && K.rows[end_at] < column_end) ++end_at;
-    update(J, K, at, end_at, lists.place, L);
-    enlist(S, lists, k, end_at);
+    update(J, K, at, end_at, lists.place, task.blocks);
+    enlist(task.S, lists, k, end_at);
     k = following;
   }
 }
 
-int32_t factorize(const Supernodes& S, const PlainBlockMatrix& H, double lambda,
-                  const SupernodeLists& lists, Block* L) {
-  for (int32_t s = 0; s < S.count; ++s) lists.first[s] = -1;
+// The first row of a run whose columns are stale: all later ones are, too.
+int32_t first_stale_row(const FactorTask& task, int32_t s) {
+  const Run J(task.S, s);
+  int32_t r = 0;
+  while (r < J.row_count && task.stale[task.S.of_column[J.rows[r]]] == 0) ++r;
+  return r;
+}
+
+void forward_run(const Run& J, const Block* L, BlockVector* x) {
+  BlockVector* own = x + J.first;
+  for (int32_t k = 0; k < J.width; ++k) {
+    const Block* row = L + J.row_offset(k);
+    subtract_times(own[k], row, own, k);
+    solve_lower(row[k], own[k]);
+  }
+  const Block* below = L + J.row_offset(J.width);
+  for (int32_t r = 0; r < J.row_count; ++r) {
+    subtract_times(x[J.rows[r]], below + r * J.width, own, J.width);
+  }
+}
+
+void backward_run(const Run& J, const Block* L, BlockVector* x) {
+  BlockVector* own = x + J.first;
+  const Block* below = L + J.row_offset(J.width);
+  for (int32_t k = J.width - 1; k >= 0; --k) {
+    TransposedSum sum;
+    sum.clear();
+    for (int32_t r = 0; r < J.row_count; ++r) sum.add(below[r * J.width + k], x[J.rows[r]]);
+    for (int32_t row = k + 1; row < J.width; ++row) sum.add(L[J.row_offset(row) + k], own[row]);
+    sum.subtract_from(own[k]);
+    solve_lower_transposed(L[J.row_offset(k) + k], own[k]);
+  }
+}
+
+int32_t factorize(const FactorTask& task) {
+  const Supernodes& S = task.S;
+  for (int32_t s = 0; s < S.count; ++s) task.lists.first[s] = -1;
   for (int32_t s = 0; s < S.count; ++s) {
     const Run J(S, s);
-    load(J, H, lambda, lists.place, L);
-    update_from_list(S, s, lists, L);
-    const int32_t failed = finish(J, H, lambda, L);
-    if (failed >= 0) return failed;
-    enlist(S, lists, s, 0);
+    if (task.stale[s] != 0) {
+      damp(J, task.lambda, task.H_diagonal, task.blocks);
+      find_places(J, task.lists.place);
+      update_from_list(task, s);
+      const int32_t failed = finish(J, task.lambda, task.H_diagonal, task.blocks);
+      if (failed >= 0) return failed;
+      enlist(S, task.lists, s, 0);
+    } else {
+      enlist(S, task.lists, s, first_stale_row(task, s));
+    }
+    if (task.x != nullptr) forward_run(J, task.blocks, task.x);
   }
   return -1;
 }
 
 void forward(const Supernodes& S, const Block* L, int32_t begin, int32_t end, BlockVector* x) {
-  for (int32_t s = begin; s < end; ++s) {
-    const Run J(S, s);
-    BlockVector* own = x + J.first;
-    for (int32_t k = 0; k < J.width; ++k) {
-      const Block* row = L + J.row_offset(k);
-      subtract_times(own[k], row, own, k);
-      solve_lower(row[k], own[k]);
-    }
-    const Block* below = L + J.row_offset(J.width);
-    for (int32_t r = 0; r < J.row_count; ++r) {
-      subtract_times(x[J.rows[r]], below + r * J.width, own, J.width);
-    }
-  }
+  for (int32_t s = begin; s < end; ++s) forward_run(Run(S, s), L, x);
 }
 
 void backward(const Supernodes& S, const Block* L, int32_t begin, int32_t end, BlockVector* x) {
-  for (int32_t s = end - 1; s >= begin; --s) {
-    const Run J(S, s);
-    BlockVector* own = x + J.first;
-    const Block* below = L + J.row_offset(J.width);
-    for (int32_t k = J.width - 1; k >= 0; --k) {
-      TransposedSum sum;
-      sum.clear();
-      for (int32_t r = 0; r < J.row_count; ++r) sum.add(below[r * J.width + k], x[J.rows[r]]);
-      for (int32_t row = k + 1; row < J.width; ++row) sum.add(L[J.row_offset(row) + k], own[row]);
-      sum.subtract_from(own[k]);
-      solve_lower_transposed(L[J.row_offset(k) + k], own[k]);
-    }
-  }
+  for (int32_t s = end - 1; s >= begin; --s) backward_run(Run(S, s), L, x);
 }
 
 }  // namespace

@@ -6,12 +6,22 @@
 
 namespace unisim {
 
+/// What a factorisation works on. The blocks hold H where they are stale, L elsewhere.
+struct FactorTask {
+  Supernodes S;
+  SupernodeLists lists;
+  const uint8_t* stale;     ///< supernode -> 1: to be factorised; with one all its ancestors
+  double lambda;            ///< damping
+  Block* blocks;            ///< H, overwritten by L
+  BlockVector* H_diagonal;  ///< columns; [out] the diagonal of H before damping, of stale columns
+  BlockVector* x;           ///< columns; nullptr, or x := L^-1 x on the way, while L is at hand
+};
+
 /// The numeric phase, one set of functions per instruction set.
 struct SupernodalKernels {
   /// L L' = H + lambda diag(H), left-looking over the supernodes.
   /// @return -1; else the column whose pivot is not finite or not above 1e-13 of its diagonal
-  int32_t (*factorize)(const Supernodes& S, const PlainBlockMatrix& H, double lambda,
-                       const SupernodeLists& lists, Block* L);
+  int32_t (*factorize)(const FactorTask& task);
   /// x := L^-1 x for the supernodes begin .. end - 1.
   void (*forward)(const Supernodes& S, const Block* L, int32_t begin, int32_t end, BlockVector* x);
   /// x := L'^-1 x for the supernodes begin .. end - 1.

@@ -16,13 +16,15 @@ namespace unisim {
 ///     row 5   [ b3  b4  b5  ]                        columns of the run is one sweep over memory
 ///     row 7   [ b6  b7  b8  ]
 ///     row 9   [ b9  b10 b11 ]
+///
+/// Once factorised, the diagonal blocks hold L_jj^-1 by rows (block_kernels.hpp).
 struct Supernodes {
   int32_t count = 0;
   const int32_t* first_column = nullptr;  ///< count + 1
   const int32_t* of_column = nullptr;     ///< columns
   const int32_t* row_start = nullptr;     ///< count + 1 offsets into rows
   const int32_t* rows = nullptr;          ///< block rows below each run, ascending
-  const int32_t* block_start = nullptr;   ///< count + 1 offsets of the runs' blocks
+  const int32_t* block_start = nullptr;   ///< where the blocks of each run begin
 };
 
 /// Blocks of a triangle of w block rows: where the rows below it begin.
@@ -34,14 +36,6 @@ struct SupernodeLists {
   int32_t* next;      ///< the next one
   int32_t* position;  ///< which of its rows is the first in the supernode it waits for
   int32_t* place;     ///< block row -> place in the present supernode
-};
-
-/// Lower triangle of a symmetric block matrix as plain arrays: BlockMatrixView without checks.
-struct PlainBlockMatrix {
-  const int32_t* column_start;
-  const int32_t* rows;
-  const Block* diagonal;
-  const Block* off_diagonal;
 };
 
 }  // namespace unisim

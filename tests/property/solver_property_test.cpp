@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sparse block Cholesky against dense Eigen on random graphs; gauge freedom of the whole solver.
-#include "core/solve/block_map.hpp"
+#include <optional>
+
 #include "tests/support/catch.hpp"
 #include "tests/unit/core_support.hpp"
 
@@ -56,30 +57,23 @@ struct RandomGraph {
   std::vector<Sim3> truth;
 };
 
-Dense dense_of(const BlockMatrixView& H) {
-  const int n = H.diagonal.size();
-  Dense out = Dense::Zero(7 * n, 7 * n);
-  for (int j = 0; j < n; ++j) {
-    out.block<7, 7>(7 * j, 7 * j) = as_matrix(H.diagonal[j]).triangularView<Eigen::Lower>();
-    for (int32_t p = H.column_start[j]; p < H.column_start[j + 1]; ++p) {
-      out.block<7, 7>(7 * H.rows[p], 7 * j) = as_matrix(H.off_diagonal[p]);
-    }
-  }
-  return out.selfadjointView<Eigen::Lower>();
-}
-
 // The parts of a solver on one graph.
 struct System {
   System(const Graph& graph, const SolverCapacity& capacity)
       : pattern(capacity), equations(capacity), cholesky(capacity) {
     REQUIRE(pattern->build(graph) == Status::kOk);
     REQUIRE(cholesky->analyze(pattern->column_start(), pattern->rows()) == Status::kOk);
-    equations->linearize(graph, *pattern);
+    assembled.emplace(*equations, graph, *pattern);
   }
-  BlockMatrixView H() { return equations->H(*pattern); }
+  Dense H() const { return assembled->dense(); }
+  Status factorize(double lambda) {
+    assembled->copy_to(*cholesky);
+    return cholesky->factorize(lambda);
+  }
   Carved<BlockPattern, SolverCapacity> pattern;
   Carved<NormalEquations, SolverCapacity> equations;
   Carved<BlockCholesky, SolverCapacity> cholesky;
+  std::optional<unisim_test::Assembled> assembled;
 };
 
 }  // namespace
@@ -93,9 +87,9 @@ TEST_CASE("sparse solution equals the dense one on random patterns") {
     System system(*random.graph, random.capacity);
     for (const double lambda : {0.0, 1e-4, 10.0}) {
       CAPTURE(seed, n, lambda);
-      Dense H = dense_of(system.H());
+      Dense H = system.H();
       H.diagonal() *= 1.0 + lambda;
-      REQUIRE(system.cholesky->factorize(system.H(), lambda) == Status::kOk);
+      REQUIRE(system.factorize(lambda) == Status::kOk);
       const int columns = system.pattern->columns();
       std::vector<BlockVector> x(static_cast<size_t>(columns));
       Eigen::VectorXd b(7 * columns);
@@ -124,8 +118,8 @@ TEST_CASE("inverse blocks equal those of the dense inverse") {
     RandomGraph random(seed, 15, 12, 0.1);
     REQUIRE(random.graph->set_fixed(3, true) == Status::kOk);
     System system(*random.graph, random.capacity);
-    REQUIRE(system.cholesky->factorize(system.H(), 0.0) == Status::kOk);
-    const Dense inverse = dense_of(system.H()).inverse();
+    REQUIRE(system.factorize(0.0) == Status::kOk);
+    const Dense inverse = system.H().inverse();
     const int columns = system.pattern->columns();
     std::vector<BlockVector> work(static_cast<size_t>(columns));
     for (int j = 0; j < columns; ++j) {
@@ -141,9 +135,9 @@ TEST_CASE("without a fixed node H is rank deficient and refused, with damping it
   for (uint32_t seed = 200; seed < 220; ++seed) {
     RandomGraph random(seed, 10, 8, 0.1);
     System system(*random.graph, random.capacity);
-    CHECK(system.cholesky->factorize(system.H(), 0.0) == Status::kNumerical);
+    CHECK(system.factorize(0.0) == Status::kNumerical);
     CHECK(system.cholesky->bad_column() == system.pattern->columns() - 1);
-    CHECK(system.cholesky->factorize(system.H(), 1e-4) == Status::kOk);
+    CHECK(system.factorize(1e-4) == Status::kOk);
   }
 }
 
@@ -152,13 +146,9 @@ TEST_CASE("an indefinite matrix is refused at or after its bad column") {
     RandomGraph random(seed, 12, 10, 0.1);
     REQUIRE(random.graph->set_fixed(0, true) == Status::kOk);
     System system(*random.graph, random.capacity);
-    const BlockMatrixView H = system.H();
-    std::vector<Block> diagonal(H.diagonal.begin(), H.diagonal.end());
-    const int32_t bad = static_cast<int32_t>(seed) % H.diagonal.size();
-    diagonal[static_cast<size_t>(bad)].at(2, 2) *= -1.0;
-    const BlockMatrixView indefinite{
-        H.column_start, H.rows, {diagonal.data(), H.diagonal.size()}, H.off_diagonal};
-    CHECK(system.cholesky->factorize(indefinite, 0.0) == Status::kNumerical);
+    const int32_t bad = static_cast<int32_t>(seed) % system.pattern->columns();
+    system.assembled->diagonal(bad).at(2, 2) *= -1.0;
+    CHECK(system.factorize(0.0) == Status::kNumerical);
     CHECK(system.cholesky->bad_column() == bad);
   }
 }

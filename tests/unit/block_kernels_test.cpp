@@ -48,11 +48,8 @@ bool padding_is_zero(const Block& block) {
   return true;
 }
 
-Dense lower_factor(const Block& factored) {
-  Dense L = as_matrix(factored).triangularView<Eigen::Lower>();
-  L.diagonal() = L.diagonal().cwiseInverse().eval();
-  return L;
-}
+// L of a block that invert_factor() has left.
+Dense lower_factor(const Block& inverted) { return as_matrix(inverted).transpose().inverse(); }
 
 }  // namespace
 
@@ -74,12 +71,12 @@ TEST_CASE("subtract_products and subtract_grams") {
   }
 }
 
-TEST_CASE("factorize_diagonal and the solves") {
+TEST_CASE("invert_factor and the solves") {
   unisim_test::Random random(2);
   for (int trial = 0; trial < 20; ++trial) {
     const Block D = positive_block(random);
     Block L = D;
-    REQUIRE(factorize_diagonal(L, kNoFloor));
+    REQUIRE(invert_factor(L, kNoFloor));
     const Dense dense_L = lower_factor(L);
     CHECK(difference(dense_L * dense_L.transpose(), as_matrix(D)) < 1e-14);
     BlockVector x = random_vector(random);
@@ -119,20 +116,20 @@ TEST_CASE("pivots that are not positive, below their floor or not finite are ref
   Block identity{};
   as_matrix(identity).setIdentity();
   Block D = identity;
-  CHECK(factorize_diagonal(D, kNoFloor));
+  CHECK(invert_factor(D, kNoFloor));
   D = identity;
   D.at(3, 3) = 0.0;
-  CHECK_FALSE(factorize_diagonal(D, kNoFloor));
+  CHECK_FALSE(invert_factor(D, kNoFloor));
   D = identity;
   D.at(6, 6) = -1.0;
-  CHECK_FALSE(factorize_diagonal(D, kNoFloor));
+  CHECK_FALSE(invert_factor(D, kNoFloor));
   D = identity;
   D.at(0, 0) = std::numeric_limits<double>::quiet_NaN();
-  CHECK_FALSE(factorize_diagonal(D, kNoFloor));
+  CHECK_FALSE(invert_factor(D, kNoFloor));
   D = identity;
   D.at(0, 0) = std::numeric_limits<double>::infinity();
-  CHECK_FALSE(factorize_diagonal(D, kNoFloor));
+  CHECK_FALSE(invert_factor(D, kNoFloor));
   const double floor[kTangentDim] = {0, 0, 0, 0, 2, 0, 0};
   D = identity;
-  CHECK_FALSE(factorize_diagonal(D, floor));
+  CHECK_FALSE(invert_factor(D, floor));
 }

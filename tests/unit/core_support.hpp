@@ -5,12 +5,14 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <random>
 #include <vector>
 
 #include "core/base/arena.hpp"
 #include "core/graph/graph.hpp"
 #include "core/lie/sim3.hpp"
+#include "core/solve/block_map.hpp"
 #include "core/solve/lm.hpp"
 
 namespace unisim_test {
@@ -106,6 +108,62 @@ Eigen::MatrixXd numeric_jacobian(const unisim::Sim3& T, Function f) {
   }
   return J;
 }
+
+/// H as a NormalEquations puts it together, in memory of its own: every column is wanted.
+class Assembled {
+ public:
+  Assembled(unisim::NormalEquations& equations, const unisim::Graph& graph,
+            const unisim::BlockPattern& pattern)
+      : columns_(pattern.columns()),
+        start_(pattern.column_start().begin(), pattern.column_start().end()),
+        rows_(pattern.rows().begin(), pattern.rows().end()),
+        blocks_(static_cast<size_t>(columns_) + rows_.size()),
+        of_column_(static_cast<size_t>(columns_), 0),
+        place_(blocks_.size()) {
+    std::iota(place_.begin(), place_.end(), 0);
+    cost_ = equations.linearize(
+        graph, pattern,
+        {blocks_.data(), place_.data(), place_.data() + columns_, of_column_.data(), &all_});
+  }
+  double cost() const { return cost_; }
+  int32_t columns() const { return columns_; }
+  /// The whole of H.
+  Eigen::MatrixXd dense() const {
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(7 * columns_, 7 * columns_);
+    for (int32_t j = 0; j < columns_; ++j) {
+      const size_t column = static_cast<size_t>(j);
+      H.block<7, 7>(7 * j, 7 * j) = unisim::as_matrix(blocks_[column]);
+      for (int32_t p = start_[column]; p < start_[column + 1]; ++p) {
+        H.block<7, 7>(7 * rows_[static_cast<size_t>(p)], 7 * j) =
+            unisim::as_matrix(blocks_[static_cast<size_t>(columns_ + p)]);
+      }
+    }
+    return H.selfadjointView<Eigen::Lower>();
+  }
+  /// Put H where a factorisation wants it,.
+  void copy_to(unisim::BlockCholesky& cholesky) const {
+    cholesky.mark_all_stale();
+    cholesky.clear_stale();
+    const unisim::Assembly target = cholesky.assembly();
+    for (int32_t j = 0; j < columns_; ++j) {
+      target.blocks[target.diagonal[j]] = blocks_[static_cast<size_t>(j)];
+    }
+    for (int32_t p = 0; p < static_cast<int32_t>(rows_.size()); ++p) {
+      target.blocks[target.off_diagonal[p]] = blocks_[static_cast<size_t>(columns_ + p)];
+    }
+  }
+  unisim::Block& diagonal(int32_t column) { return blocks_[static_cast<size_t>(column)]; }
+
+ private:
+  int32_t columns_;
+  std::vector<int32_t> start_;
+  std::vector<int32_t> rows_;
+  std::vector<unisim::Block> blocks_;
+  std::vector<int32_t> of_column_;
+  std::vector<int32_t> place_;
+  uint8_t all_ = 1;
+  double cost_ = 0.0;
+};
 
 /// Rotation by an angle [rad] about z, then translation; scale s.
 inline unisim::Sim3 about_z(double angle, double x, double y, double z, double s) {

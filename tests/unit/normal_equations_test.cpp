@@ -5,7 +5,6 @@
 #include "core/graph/bridge.hpp"
 #include "core/graph/tie.hpp"
 #include "core/graph/two_view.hpp"
-#include "core/solve/block_map.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/unit/core_support.hpp"
 
@@ -36,20 +35,17 @@ struct Pair {
 
   double linearize() {
     REQUIRE(pattern->build(*graph) == Status::kOk);
-    return equations->linearize(*graph, *pattern);
+    const unisim_test::Assembled assembled(*equations, *graph, *pattern);
+    H = assembled.dense();
+    return assembled.cost();
   }
   Dense diagonal(int32_t node) {
-    const Dense lower = as_matrix(equations->H(*pattern).diagonal[pattern->column_of_node(node)])
-                            .triangularView<Eigen::Lower>();
-    Dense full = lower + lower.transpose();
-    full.diagonal() = lower.diagonal();
-    return full;
+    const int32_t at = 7 * pattern->column_of_node(node);
+    return H.block<7, 7>(at, at);
   }
   // Rows of node 1, columns of node 0.
   Dense off_diagonal() {
-    const Dense block = as_matrix(equations->H(*pattern).off_diagonal[0]);
-    return pattern->column_of_node(1) > pattern->column_of_node(0) ? block
-                                                                   : Dense(block.transpose());
+    return H.block<7, 7>(7 * pattern->column_of_node(1), 7 * pattern->column_of_node(0));
   }
   Vec7 gradient(int32_t node) {
     return Eigen::Map<const Vec7>(equations->gradient()[pattern->column_of_node(node)].v);
@@ -70,6 +66,7 @@ struct Pair {
   CarvedGraph graph;
   CarvedPattern pattern;
   CarvedEquations equations;
+  Eigen::MatrixXd H;
   Sim3 A, B, P, Q;
   EdgeWeight weight;
 };
