@@ -8,7 +8,7 @@ namespace unisim {
 namespace UNISIM_ISA {
 
 /// rigid.hpp. Nothing depends on the log-scales: their rows and columns are zero but for a one on
-/// each diagonal, whatever the weight of the edge.
+/// each diagonal, which keeps the blocks positive.
 UNISIM_ALWAYS_INLINE void rigid_normal(const PackSim3& A, const PackSim3& B, const PackSim3& Z,
                                        const PackSymmetric& Lambda, PackNormal* out) {
   const PackSim3 D = between(A, B);
