@@ -46,6 +46,7 @@ void give_back(FixedVector<int32_t>* free_slots, int32_t slot) {
 Graph::Graph(Arena& arena, const GraphCapacity& capacity)
     : nodes_(arena, capacity.nodes),
       free_nodes_(arena, capacity.nodes),
+      changes_(arena.take<uint8_t>(capacity.nodes)),
       edges_(arena, capacity.edges),
       free_edges_(arena, capacity.edges),
       measurements_(arena, capacity.measurements),
@@ -54,6 +55,7 @@ Graph::Graph(Arena& arena, const GraphCapacity& capacity)
       free_informations_(arena, capacity.chains) {}
 
 void Graph::clear() {
+  changes_.fill(kNodeMoved | kNodeRelinked);
   nodes_.clear();
   free_nodes_.clear();
   edges_.clear();
@@ -66,6 +68,11 @@ void Graph::clear() {
   node_count_ = 0;
   edge_count_ = 0;
   structure_changed();
+}
+
+void Graph::note_relinked(const Edge& edge) {
+  changes_[edge.a] |= kNodeRelinked;
+  changes_[edge.b] |= kNodeRelinked;
 }
 
 void Graph::structure_changed() {
@@ -83,6 +90,7 @@ Status Graph::add_node(NodeKind kind, const Sim3& T_world_node, int32_t* id) {
   *id = take_slot(&nodes_, &free_nodes_);
   nodes_[*id] = Node{T_world_node, next_serial_++, kind, false, true};
   ++node_count_;
+  changes_[*id] = kNodeMoved | kNodeRelinked;
   structure_changed();
   return Status::kOk;
 }
@@ -93,6 +101,7 @@ Status Graph::remove_node(int32_t id) {
     if (edges_[i].alive && (edges_[i].a == id || edges_[i].b == id)) release_edge(i);
   }
   nodes_[id].alive = false;
+  changes_[id] |= kNodeRelinked;
   give_back(&free_nodes_, id);
   --node_count_;
   structure_changed();
@@ -103,6 +112,7 @@ Status Graph::set_fixed(int32_t id, bool fixed) {
   if (!has_node(id)) return Status::kInvalidArgument;
   if (nodes_[id].fixed == fixed) return Status::kOk;
   nodes_[id].fixed = fixed;
+  changes_[id] |= kNodeMoved | kNodeRelinked;
   structure_changed();
   return Status::kOk;
 }
@@ -117,6 +127,7 @@ Status Graph::set_kind(int32_t id, NodeKind kind) {
 Status Graph::set_pose(int32_t id, const Sim3& T_world_node) {
   if (!has_node(id) || !T_world_node.valid()) return Status::kInvalidArgument;
   nodes_[id].T_world_node = T_world_node;
+  changes_[id] |= kNodeMoved;
   ++revision_;
   return Status::kOk;
 }
@@ -136,6 +147,7 @@ Status Graph::add_edge(const Edge& edge, int32_t* id) {
   edges_[*id] = edge;
   edges_[*id].alive = true;
   ++edge_count_;
+  note_relinked(edge);
   structure_changed();
   return Status::kOk;
 }
@@ -237,6 +249,7 @@ ChainLink Graph::link(const Edge& edge) const {
 
 void Graph::release_edge(int32_t id) {
   Edge& edge = edges_[id];
+  note_relinked(edge);
   if (edge.P >= 0) give_back(&free_measurements_, edge.P);
   if (edge.Q >= 0) give_back(&free_measurements_, edge.Q);
   if (edge.Lambda >= 0) give_back(&free_informations_, edge.Lambda);
@@ -257,6 +270,7 @@ Status Graph::set_measurement(int32_t id, const Sim3& Z) {
     return Status::kInvalidArgument;
   }
   measurements_[edges_[id].P] = Z;
+  note_relinked(edges_[id]);
   ++revision_;
   return Status::kOk;
 }
@@ -267,6 +281,7 @@ Status Graph::set_tie_measurement(int32_t id, const Sim3& P, const Sim3& T_subma
   }
   measurements_[edges_[id].P] = P;
   measurements_[edges_[id].Q] = T_submap_n_kf;
+  note_relinked(edges_[id]);
   ++revision_;
   return Status::kOk;
 }
@@ -276,6 +291,7 @@ Status Graph::set_log_ratio(int32_t id, double log_ratio) {
     return Status::kInvalidArgument;
   }
   edges_[id].log_ratio = log_ratio;
+  note_relinked(edges_[id]);
   ++revision_;
   return Status::kOk;
 }
@@ -285,6 +301,7 @@ Status Graph::set_multiplier(int32_t id, double multiplier) {
     return Status::kInvalidArgument;
   }
   edges_[id].multiplier = multiplier;
+  note_relinked(edges_[id]);
   ++revision_;
   return Status::kOk;
 }
@@ -292,6 +309,7 @@ Status Graph::set_multiplier(int32_t id, double multiplier) {
 Status Graph::set_suspended(int32_t id, bool suspended) {
   if (!has_edge(id)) return Status::kInvalidArgument;
   edges_[id].suspended = suspended;
+  note_relinked(edges_[id]);
   ++revision_;
   return Status::kOk;
 }

@@ -22,6 +22,12 @@ struct GraphCapacity {
   int32_t chains = 0;        ///< chain and rigid edges among the edges
 };
 
+/// Bits of what happened to a node.
+enum NodeChange : uint8_t {
+  kNodeMoved = 1,    ///< its pose: what its edges say has changed at both ends
+  kNodeRelinked = 2  ///< an edge of it came, went or got other numbers; or it was held or released
+};
+
 /// What every edge is given besides its measurement.
 struct EdgeWeight {
   double information = 1.0;  ///< > 0, finite
@@ -113,7 +119,13 @@ class Graph {
   /// Grows with every change, poses and measurements included.
   uint64_t revision() const { return revision_; }
 
+  /// What has changed at a node since forget_changes(): bits of NodeChange. Removed nodes count.
+  uint8_t changes(int32_t id) const { return changes_[id]; }
+  /// For the one solver that follows the graph; changes nothing else.
+  void forget_changes() const { changes_.fill(0); }
+
  private:
+  void note_relinked(const Edge& edge);
   Status add_edge(const Edge& edge, int32_t* id);
   Status add_pose_edge(FactorKind kind, int32_t a, int32_t b, const Sim3& P, const Sim3* Q,
                        const EdgeWeight& weight, int32_t* id);
@@ -128,6 +140,7 @@ class Graph {
 
   FixedVector<Node> nodes_;
   FixedVector<int32_t> free_nodes_;
+  Span<uint8_t> changes_;
   FixedVector<Edge> edges_;
   FixedVector<int32_t> free_edges_;
   FixedVector<Sim3> measurements_;

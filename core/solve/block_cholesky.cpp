@@ -21,6 +21,11 @@ BlockCholesky::BlockCholesky(Arena& arena, const SolverCapacity& capacity)
       off_diagonal_(arena.take<int32_t>(capacity.pairs)),
       stale_(arena.take<uint8_t>(capacity.nodes)),
       H_diagonal_(arena.take<BlockVector>(capacity.nodes)),
+      kept_column_(arena.take<int32_t>(capacity.nodes)),
+      kept_width_(arena.take<int32_t>(capacity.nodes)),
+      kept_row_start_(arena.take<int32_t>(capacity.nodes + 1)),
+      kept_rows_(arena.take<int32_t>(std::max(capacity.factor_blocks - 1, 0))),
+      kept_block_start_(arena.take<int32_t>(capacity.nodes)),
       parent_(arena.take<int32_t>(capacity.nodes)),
       H_start_(arena.take<int32_t>(capacity.nodes + 1)),
       H_columns_(arena.take<int32_t>(capacity.pairs)),
@@ -74,35 +79,118 @@ void BlockCholesky::visit_rows(Visit visit) {
 
 // Cuts the columns into supernodes: column j joins the run of column j - 1 when it is its parent
 // and has the same rows below. Joining columns that differ a little, by blocks of zeros, does not
-// pay with blocks of this size.
-void BlockCholesky::choose_supernodes(Span<const int32_t> count) {
+// pay with blocks of this size. Kept supernodes stay as they are.
+void BlockCholesky::choose_supernodes(Span<const int32_t> count, int32_t kept) {
   supernodes_ = 0;
-  for (int32_t j = 0; j < columns_; ++j) {
-    const bool joins = j > 0 && parent_[j - 1] == j && count[j - 1] == count[j] + 1;
+  int32_t j = 0;
+  for (; supernodes_ < kept; ++supernodes_) {
+    first_column_[supernodes_] = j;
+    for (int32_t k = 0; k < kept_width_[supernodes_]; ++k) of_column_[j++] = supernodes_;
+  }
+  for (const int32_t first = j; j < columns_; ++j) {
+    const bool joins = j > first && parent_[j - 1] == j && count[j - 1] == count[j] + 1;
     if (!joins) first_column_[supernodes_++] = j;
     of_column_[j] = supernodes_ - 1;
   }
   first_column_[supernodes_] = columns_;
 }
 
-void BlockCholesky::place_supernodes(Span<const int32_t> count) {
+// @return false when the blocks do not fit
+bool BlockCholesky::place_supernodes(Span<const int32_t> count, int32_t kept) {
   row_start_[0] = 0;
-  block_start_[0] = 0;
+  const Span<int32_t> fill = position_;
+  int64_t fresh = 0;
   for (int32_t s = 0; s < supernodes_; ++s) {
     const int32_t width = first_column_[s + 1] - first_column_[s];
     const int32_t below = count[first_column_[s + 1] - 1];
     row_start_[s + 1] = row_start_[s] + below;
-    block_start_[s + 1] = block_start_[s] + triangle(width) + width * below;
+    fill[s] = row_start_[s];
+    if (s >= kept) fresh += triangle(width) + width * below;
   }
-  const Span<int32_t> fill = position_;
-  for (int32_t s = 0; s < supernodes_; ++s) fill[s] = row_start_[s];
   visit_rows([&](int32_t row, int32_t column) {
     const int32_t s = of_column_[column];
     if (column + 1 == first_column_[s + 1]) rows_[fill[s]++] = row;
   });
+  const auto blocks = [&](int32_t s) {
+    const int32_t width = first_column_[s + 1] - first_column_[s];
+    return triangle(width) + width * (row_start_[s + 1] - row_start_[s]);
+  };
+  int32_t end = 0;
+  for (int32_t s = 0; s < kept; ++s) {
+    block_start_[s] = kept_block_start_[s];
+    end = block_start_[s] + blocks(s);
+  }
+  if (end + fresh > blocks_.size()) end = pack_kept(kept);
+  if (end + fresh > blocks_.size()) return false;
+  for (int32_t s = kept; s < supernodes_; ++s) {
+    block_start_[s] = end;
+    end += blocks(s);
+  }
+  return true;
+}
+
+// Closes the gaps that supernodes which were not kept have left. @return end of the blocks
+int32_t BlockCholesky::pack_kept(int32_t kept) {
+  int32_t end = 0;
+  for (int32_t s = 0; s < kept; ++s) {
+    const int32_t width = first_column_[s + 1] - first_column_[s];
+    const int32_t count = triangle(width) + width * (row_start_[s + 1] - row_start_[s]);
+    std::memmove(static_cast<void*>(&blocks_[end]), &blocks_[block_start_[s]],
+                 static_cast<size_t>(count) * sizeof(Block));
+    block_start_[s] = end;
+    end += count;
+  }
+  return end;
+}
+
+// The columns above a kept supernode may have a new order among themselves.
+void BlockCholesky::sort_kept_rows(int32_t s) {
+  const int32_t width = kept_width_[s];
+  Block* below = &blocks_[block_start_[s]] + triangle(width);
+  int32_t* had = kept_rows_.data() + kept_row_start_[s];
+  const int32_t count = row_start_[s + 1] - row_start_[s];
+  UNISIM_CHECK(count == kept_row_start_[s + 1] - kept_row_start_[s]);
+  for (int32_t r = 0; r < count; ++r) {
+    const int32_t wanted = rows_[row_start_[s] + r];
+    if (had[r] == wanted) continue;
+    int32_t q = r + 1;
+    while (q < count && had[q] != wanted) ++q;
+    UNISIM_CHECK(q < count);
+    std::swap(had[r], had[q]);
+    std::swap_ranges(below + r * width, below + (r + 1) * width, below + q * width);
+  }
+}
+
+KeptOrder BlockCholesky::keep() {
+  kept_ = 0;
+  int32_t columns = 0;
+  kept_row_start_[0] = 0;
+  for (int32_t s = 0; s < supernodes_; ++s) {
+    if (stale_[s] != 0) continue;
+    kept_width_[kept_] = first_column_[s + 1] - first_column_[s];
+    kept_block_start_[kept_] = block_start_[s];
+    int32_t to = kept_row_start_[kept_];
+    for (int32_t r = row_start_[s]; r < row_start_[s + 1]; ++r) kept_rows_[to++] = rows_[r];
+    kept_row_start_[++kept_] = to;
+    for (int32_t j = first_column_[s]; j < first_column_[s + 1]; ++j) {
+      H_diagonal_[columns] = H_diagonal_[j];
+      kept_column_[columns++] = j;
+    }
+  }
+  return {kept_column_.subspan(0, columns), kept_row_start_.subspan(0, kept_ + 1),
+          kept_rows_.subspan(0, kept_row_start_[kept_])};
 }
 
 Status BlockCholesky::analyze(Span<const int32_t> column_start, Span<const int32_t> rows) {
+  return analyze(column_start, rows, 0);
+}
+
+Status BlockCholesky::reanalyze(Span<const int32_t> column_start, Span<const int32_t> rows) {
+  return analyze(column_start, rows, kept_);
+}
+
+Status BlockCholesky::analyze(Span<const int32_t> column_start, Span<const int32_t> rows,
+                              int32_t kept) {
   const int32_t columns = column_start.size() - 1;
   if (columns > capacity_.nodes || rows.size() > capacity_.pairs) return Status::kCapacity;
   columns_ = columns;
@@ -116,10 +204,11 @@ Status BlockCholesky::analyze(Span<const int32_t> column_start, Span<const int32
     ++needed_blocks_;
   });
   if (needed_blocks_ > capacity_.factor_blocks) return Status::kCapacity;
-  choose_supernodes(count);
-  place_supernodes(count);
+  choose_supernodes(count, kept);
+  if (!place_supernodes(count, kept)) return Status::kCapacity;
   locate_blocks(column_start, rows);
-  mark_all_stale();
+  for (int32_t s = 0; s < kept; ++s) sort_kept_rows(s);
+  for (int32_t s = 0; s < supernodes_; ++s) stale_[s] = s < kept ? 0 : 1;
   return Status::kOk;
 }
 

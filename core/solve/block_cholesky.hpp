@@ -9,6 +9,7 @@
 #include "core/base/status.hpp"
 #include "core/solve/assembly.hpp"
 #include "core/solve/block.hpp"
+#include "core/solve/block_pattern.hpp"
 #include "core/solve/solver_capacity.hpp"
 #include "core/solve/supernodes.hpp"
 
@@ -17,10 +18,10 @@ namespace unisim {
 /// H + lambda diag(H) = L L', supernodal and left-looking, in the column order of H (best a
 /// postorder of the elimination tree: only neighbouring columns can share a supernode).
 ///
-/// analyze() once per structure; then, as often as wanted: clear_stale(), assemble H into
+/// analyze() per structure; then, as often as wanted: clear_stale(), assemble H into
 /// assembly(), factorize(), solve(). L overwrites H. Where only some columns of H have changed,
 /// mark_stale() them instead of all: what is not above them in the elimination tree keeps its part
-/// of L.
+/// of L, even when the structure changes (keep(), reanalyze()).
 class BlockCholesky {
  public:
   BlockCholesky() = default;
@@ -31,6 +32,13 @@ class BlockCholesky {
   /// @return kOk; kCapacity when H or L has more blocks than declared: needed_blocks() says how
   /// many
   Status analyze(Span<const int32_t> column_start, Span<const int32_t> rows);
+
+  /// What of the order and of L stays when the structure changes: all that is not stale. To be
+  /// handed to BlockPattern::rebuild(), then to reanalyze(); nothing is factorised between.
+  KeptOrder keep();
+  /// analyze() after a change of the structure. Kept columns keep their part of L, the others are
+  /// stale.
+  Status reanalyze(Span<const int32_t> column_start, Span<const int32_t> rows);
 
   /// Blocks of L, diagonal included, for the structure last handed to analyze().
   int64_t needed_blocks() const { return needed_blocks_; }
@@ -70,8 +78,11 @@ class BlockCholesky {
   void find_parents(Span<const int32_t> column_start, Span<const int32_t> rows);
   template <class Visit>
   void visit_rows(Visit visit);
-  void choose_supernodes(Span<const int32_t> count);
-  void place_supernodes(Span<const int32_t> count);
+  Status analyze(Span<const int32_t> column_start, Span<const int32_t> rows, int32_t kept);
+  void choose_supernodes(Span<const int32_t> count, int32_t kept);
+  bool place_supernodes(Span<const int32_t> count, int32_t kept);
+  int32_t pack_kept(int32_t kept);
+  void sort_kept_rows(int32_t s);
   void locate_blocks(Span<const int32_t> column_start, Span<const int32_t> rows);
   Supernodes supernodes() const;
   int32_t parent_supernode(int32_t s) const;
@@ -91,6 +102,12 @@ class BlockCholesky {
   Span<int32_t> off_diagonal_;
   Span<uint8_t> stale_;
   Span<BlockVector> H_diagonal_;
+  int32_t kept_ = 0;           // supernodes of the last keep()
+  Span<int32_t> kept_column_;  // former numbers of their columns
+  Span<int32_t> kept_width_;
+  Span<int32_t> kept_row_start_;
+  Span<int32_t> kept_rows_;
+  Span<int32_t> kept_block_start_;
   Span<int32_t> parent_;   // elimination tree of the columns
   Span<int32_t> H_start_;  // H by rows, for the analysis
   Span<int32_t> H_columns_;

@@ -20,6 +20,24 @@ void to_offsets(Span<int32_t> counts) {
   for (int32_t k = 1; k < counts.size(); ++k) counts[k] += counts[k - 1];
 }
 
+// Leaves one of each entry in every list and closes the gaps.
+void drop_doubles(Span<int32_t> start, Span<int32_t> lists, Span<int32_t> work) {
+  const int32_t count = start.size() - 1;
+  const Span<int32_t> last_seen_in = work.subspan(0, count);
+  last_seen_in.fill(-1);
+  int32_t to = 0;
+  int32_t from = 0;
+  for (int32_t i = 0; i < count; ++i) {
+    for (; from < start[i + 1]; ++from) {
+      const int32_t j = lists[from];
+      if (last_seen_in[j] == i) continue;
+      last_seen_in[j] = i;
+      lists[to++] = j;
+    }
+    start[i + 1] = to;
+  }
+}
+
 }  // namespace
 
 BlockPattern::BlockPattern(Arena& arena, const SolverCapacity& capacity)
@@ -52,11 +70,45 @@ Status BlockPattern::build(const Graph& graph) {
 
 void BlockPattern::number_nodes(const Graph& graph) {
   columns_ = 0;
+  column_of_node_.fill(-1);
   for (int32_t id = 0; id < graph.node_end(); ++id) {
     const Node& node = graph.node(id);
     const bool free = node.alive && !node.fixed;
     column_of_node_[id] = free ? columns_ : -1;
     if (free) node_of_column_[columns_++] = id;
+  }
+}
+
+Status BlockPattern::rebuild(const Graph& graph, const KeptOrder& kept) {
+  if (graph.node_end() > capacity_.nodes || graph.edge_end() > capacity_.edges) {
+    return Status::kCapacity;
+  }
+  for (int32_t& row : kept.rows) row = node_of_column_[row];
+  number_kept_first(graph, kept);
+  if (columns_ == 0) return Status::kNotReady;
+  const Status status = collect_pairs(graph);
+  if (!is_ok(status)) return status;
+  for (int32_t& row : kept.rows) row = column_of_node_[row];
+  if (!order_rest(kept)) return Status::kNotReady;
+  place_pairs(graph);
+  const Span<int32_t> position = work_.subspan(0, columns_);
+  for (int32_t c = 0; c < columns_; ++c) position[order_[c]] = c;
+  for (int32_t& row : kept.rows) row = position[row];
+  return Status::kOk;
+}
+
+// Former columns ascend and are at least as high as the new ones, so that the list of their nodes
+// is shortened in place.
+void BlockPattern::number_kept_first(const Graph& graph, const KeptOrder& kept) {
+  columns_ = kept.columns.size();
+  for (int32_t i = 0; i < columns_; ++i) node_of_column_[i] = node_of_column_[kept.columns[i]];
+  column_of_node_.fill(-1);
+  for (int32_t i = 0; i < columns_; ++i) column_of_node_[node_of_column_[i]] = i;
+  for (int32_t id = 0; id < graph.node_end(); ++id) {
+    const Node& node = graph.node(id);
+    if (!node.alive || node.fixed || column_of_node_[id] >= 0) continue;
+    column_of_node_[id] = columns_;
+    node_of_column_[columns_++] = id;
   }
 }
 
@@ -120,6 +172,54 @@ void BlockPattern::order_columns() {
   }
   minimum_degree_order(start, adjacency_.subspan(0, 2 * pairs_), work_,
                        order_.subspan(0, columns_));
+}
+
+// Eliminating the kept columns has made cliques among the others: the rows below the supernodes
+// whose parent is not kept.
+bool BlockPattern::order_rest(const KeptOrder& kept) {
+  const int32_t first = kept.columns.size();
+  const int32_t rest = columns_ - first;
+  const Span<int32_t> start = adjacency_start_.subspan(0, rest + 1);
+  const auto each_clique = [&](auto&& visit) {
+    for (int32_t s = 0; s + 1 < kept.row_start.size(); ++s) {
+      const int32_t begin = kept.row_start[s];
+      const int32_t size = kept.row_start[s + 1] - begin;
+      if (size > 1 && kept.rows[begin] >= first) visit(kept.rows.subspan(begin, size));
+    }
+  };
+  start.fill(0);
+  for (int32_t p = 0; p < pairs_; ++p) {
+    if (pair_a_[p] < first) continue;
+    ++start[pair_a_[p] - first + 1];
+    ++start[pair_b_[p] - first + 1];
+  }
+  int64_t total = 0;
+  each_clique([&](Span<const int32_t> clique) {
+    for (const int32_t i : clique) start[i - first + 1] += clique.size() - 1;
+    total += static_cast<int64_t>(clique.size()) * (clique.size() - 1);
+  });
+  if (total + 2 * static_cast<int64_t>(pairs_) > adjacency_.size()) return false;
+  to_offsets(start);
+  const Span<int32_t> fill = work_.subspan(0, rest);
+  for (int32_t i = 0; i < rest; ++i) fill[i] = start[i];
+  for (int32_t p = 0; p < pairs_; ++p) {
+    if (pair_a_[p] < first) continue;
+    adjacency_[fill[pair_a_[p] - first]++] = pair_b_[p] - first;
+    adjacency_[fill[pair_b_[p] - first]++] = pair_a_[p] - first;
+  }
+  each_clique([&](Span<const int32_t> clique) {
+    for (const int32_t i : clique) {
+      for (const int32_t j : clique) {
+        if (i != j) adjacency_[fill[i - first]++] = j - first;
+      }
+    }
+  });
+  drop_doubles(start, adjacency_, work_);
+  const Span<int32_t> order = order_.subspan(first, rest);
+  minimum_degree_order(start, adjacency_.subspan(0, start[rest]), work_, order);
+  for (int32_t& column : order) column += first;
+  for (int32_t i = 0; i < first; ++i) order_[i] = i;
+  return true;
 }
 
 // Pairs are sorted by row, then stably by column: rows ascend within each column.

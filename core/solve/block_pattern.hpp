@@ -17,6 +17,14 @@ struct EdgeSlot {
   bool a_is_later = false;  ///< the block's rows are those of node a, else of node b
 };
 
+/// The part of an elimination order that stays when the rest of it is made anew: the columns that
+/// have nothing new below them in the elimination tree.
+struct KeptOrder {
+  Span<const int32_t> columns;    ///< by their former numbers, ascending; they come first again
+  Span<const int32_t> row_start;  ///< one more than supernodes among them
+  Span<int32_t> rows;  ///< of L below each supernode; [in] former, [out] new column numbers
+};
+
 /// Block structure of H = sum J' W J for the free nodes of a graph.
 ///
 ///     column j ->  0   1   2   3        the lower triangle is stored: diagonal blocks by column,
@@ -35,6 +43,10 @@ class BlockPattern {
   /// @return kOk; kCapacity when nodes, edges or pairs exceed the declared ones; kNotReady without
   /// a free node
   Status build(const Graph& graph);
+  /// The same after a change of the graph: `kept` columns keep their order, the others are ordered
+  /// behind them by minimum degree.
+  /// @return as build(); kNotReady also when the rest is too entangled to be ordered apart: build()
+  Status rebuild(const Graph& graph, const KeptOrder& kept);
 
   int32_t columns() const { return columns_; }
   int32_t pairs() const { return pairs_; }
@@ -49,6 +61,8 @@ class BlockPattern {
 
  private:
   void number_nodes(const Graph& graph);
+  void number_kept_first(const Graph& graph, const KeptOrder& kept);
+  bool order_rest(const KeptOrder& kept);
   Status collect_pairs(const Graph& graph);
   void order_columns();
   void place_pairs(const Graph& graph);

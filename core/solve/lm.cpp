@@ -14,7 +14,8 @@ constexpr int kLogScale = 6;
 
 bool valid_options(const LmOptions& o) {
   return o.max_iterations >= 0 && o.initial_lambda > 0.0 && o.initial_lambda <= kHighestLambda &&
-         o.cost_tolerance >= 0.0 && o.step_tolerance >= 0.0 && o.max_log_scale_step > 0.0;
+         o.cost_tolerance >= 0.0 && o.step_tolerance >= 0.0 && o.least_move >= 0.0 &&
+         o.max_log_scale_step > 0.0;
 }
 
 void tell(const LmObserver& observer, LmPhase phase, const LmReport& report) {
@@ -49,21 +50,59 @@ LevenbergMarquardt::LevenbergMarquardt(Arena& arena, const SolverCapacity& capac
       step_(arena.take<BlockVector>(capacity.nodes)),
       saved_(arena.take<Sim3>(capacity.nodes)) {}
 
+// Marks the columns whose part of H has changed: those of changed nodes, and next to a node that
+// has moved.
+void LevenbergMarquardt::note_changes(const Graph& graph) {
+  const auto mark = [&](int32_t node) {
+    const int32_t column = pattern_.column_of_node(node);
+    if (column >= 0) cholesky_.mark_stale(column);
+  };
+  for (int32_t id = 0; id < graph.node_end(); ++id) {
+    if (graph.changes(id) != 0) mark(id);
+  }
+  for (int32_t id = 0; id < graph.edge_end(); ++id) {
+    const Edge& edge = graph.edge(id);
+    if (!edge.alive) continue;
+    if (((graph.changes(edge.a) | graph.changes(edge.b)) & kNodeMoved) == 0) continue;
+    mark(edge.a);
+    mark(edge.b);
+  }
+  graph.forget_changes();
+}
+
 Status LevenbergMarquardt::prepare(const Graph& graph, const LmObserver& observer) {
+  const bool known = structure_revision_ != 0;
+  if (known) note_changes(graph);
   if (graph.structure_revision() == structure_revision_) return Status::kOk;
   structure_revision_ = 0;
   undamped_revision_ = 0;
   tell(observer, LmPhase::kOrder, LmReport());
-  Status status = pattern_.build(graph);
-  if (!is_ok(status)) return status;
-  tell(observer, LmPhase::kAnalyze, LmReport());
-  status = cholesky_.analyze(pattern_.column_start(), pattern_.rows());
+  Status status = Status::kOk;
+  if (known && reorder_changed(graph)) {
+    tell(observer, LmPhase::kAnalyze, LmReport());
+    status = cholesky_.reanalyze(pattern_.column_start(), pattern_.rows());
+  } else {
+    status = pattern_.build(graph);
+    if (!is_ok(status)) return status;
+    tell(observer, LmPhase::kAnalyze, LmReport());
+    status = cholesky_.analyze(pattern_.column_start(), pattern_.rows());
+    graph.forget_changes();
+  }
   if (is_ok(status)) structure_revision_ = graph.structure_revision();
   return status;
 }
 
+// @return false when a new order of all columns is as cheap
+bool LevenbergMarquardt::reorder_changed(const Graph& graph) {
+  const KeptOrder kept = cholesky_.keep();
+  if (2 * kept.columns.size() < pattern_.columns()) return false;
+  if (!is_ok(pattern_.rebuild(graph, kept))) return false;
+  equations_.keep(kept.columns);
+  return true;
+}
+
 double LevenbergMarquardt::linearize(const Graph& graph) {
-  cholesky_.mark_all_stale();
+  note_changes(graph);
   cholesky_.clear_stale();
   return equations_.linearize(graph, pattern_, cholesky_.assembly());
 }
@@ -108,7 +147,7 @@ LmStop LevenbergMarquardt::iterate(Graph* graph, const LmOptions& options, LmRep
     }
     const double cost = report->final_cost;
     const double predicted = predicted_decrease(damping.lambda);
-    const bool moved = apply_step(graph);
+    const bool moved = apply_step(graph, options.least_move);
     tell(options.observer, LmPhase::kLinearize, *report);
     const double trial = moved ? linearize(*graph) : cost;
     if (moved && std::isfinite(trial) && trial <= cost) {
@@ -123,13 +162,14 @@ LmStop LevenbergMarquardt::iterate(Graph* graph, const LmOptions& options, LmRep
       continue;
     }
     tell(options.observer, LmPhase::kStep, *report);
-    restore_poses(graph);
+    restore_poses(graph, options.least_move);
     // Steps this small fail by roundoff only: the cost has no lower digits left.
     if (step_size_ <= options.step_tolerance) {
       ++report->iterations;
       return LmStop::kConverged;
     }
     tell(options.observer, LmPhase::kLinearize, *report);
+    cholesky_.mark_all_stale();
     linearize(*graph);
     damping.reject();
   }
@@ -157,7 +197,10 @@ bool LevenbergMarquardt::find_step(const LmOptions& options, const LmReport& rep
     }
     log_scale = std::max(log_scale, std::abs(dx.v[kLogScale]));
   }
-  if (!finite) return false;
+  if (!finite) {
+    cholesky_.mark_all_stale();
+    return false;
+  }
   shortened_ = std::min(1.0, options.max_log_scale_step / log_scale);
   for (BlockVector& dx : step) {
     for (double& value : dx.v) value *= shortened_;
@@ -182,20 +225,26 @@ double LevenbergMarquardt::predicted_decrease(double lambda) const {
   return (1.0 - 0.5 * shortened_) * along_gradient + 0.5 * damping;
 }
 
+bool LevenbergMarquardt::stays(int32_t column, double least_move) const {
+  return Eigen::Map<const Vec7>(step_[column].v).cwiseAbs().maxCoeff() <= least_move;
+}
+
 // False when a pose would leave the range of numbers; poses are then partly moved.
-bool LevenbergMarquardt::apply_step(Graph* graph) {
+bool LevenbergMarquardt::apply_step(Graph* graph, double least_move) {
   for (int32_t j = 0; j < pattern_.columns(); ++j) {
     saved_[j] = graph->pose(pattern_.node_of_column(j));
   }
   for (int32_t j = 0; j < pattern_.columns(); ++j) {
+    if (stays(j, least_move)) continue;
     const Sim3 moved = retract(saved_[j], Eigen::Map<const Vec7>(step_[j].v));
     if (!is_ok(graph->set_pose(pattern_.node_of_column(j), moved))) return false;
   }
   return true;
 }
 
-void LevenbergMarquardt::restore_poses(Graph* graph) const {
+void LevenbergMarquardt::restore_poses(Graph* graph, double least_move) const {
   for (int32_t j = 0; j < pattern_.columns(); ++j) {
+    if (stays(j, least_move)) continue;
     const Status status = graph->set_pose(pattern_.node_of_column(j), saved_[j]);
     UNISIM_CHECK(is_ok(status));
     static_cast<void>(status);
@@ -208,6 +257,7 @@ Status LevenbergMarquardt::marginal_covariance(const Graph& graph, int32_t node,
   if (!is_ok(status)) return status;
   if (undamped_revision_ != graph.revision()) {
     undamped_revision_ = 0;
+    cholesky_.mark_all_stale();
     linearize(graph);
     status = cholesky_.factorize(0.0);
     if (!is_ok(status)) return status;

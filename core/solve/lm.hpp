@@ -15,10 +15,12 @@
 namespace unisim {
 
 struct LmOptions {
-  int32_t max_iterations = 10;      ///< accepted and rejected steps together, >= 0
-  double initial_lambda = 1e-6;     ///< damping lambda diag(H), > 0
-  double cost_tolerance = 1e-7;     ///< stop at this relative change of the cost
-  double step_tolerance = 1e-7;     ///< stop when no component of the step is larger
+  int32_t max_iterations = 10;   ///< accepted and rejected steps together, >= 0
+  double initial_lambda = 1e-6;  ///< damping lambda diag(H), > 0
+  double cost_tolerance = 1e-7;  ///< stop at this relative change of the cost
+  double step_tolerance = 1e-7;  ///< stop when no component of the step is larger
+  double least_move = 0.0;       ///< nodes whose step has no larger component stay where they are:
+                                 ///< what only they see is neither linearised nor factorised anew
   double max_log_scale_step = 1.0;  ///< larger log-scale: the whole step is shortened
   LmObserver observer;  ///< called on the caller's thread; may not touch the solver or the graph
 };
@@ -43,7 +45,8 @@ struct LmReport {
 };
 
 /// Minimises the cost of a graph over its free nodes, in memory carved at construction. Serves one
-/// graph; the symbolic phase is repeated only when the graph's structure has changed.
+/// graph and remembers its last system: linearised, ordered and factorised anew is only what
+/// changes of the graph reach, which is what lies above them in the elimination tree.
 class LevenbergMarquardt {
  public:
   LevenbergMarquardt() = default;
@@ -67,12 +70,15 @@ class LevenbergMarquardt {
 
  private:
   double linearize(const Graph& graph);
+  void note_changes(const Graph& graph);
   Status prepare(const Graph& graph, const LmObserver& observer);
+  bool reorder_changed(const Graph& graph);
   LmStop iterate(Graph* graph, const LmOptions& options, LmReport* report);
   bool find_step(const LmOptions& options, const LmReport& report);
   double predicted_decrease(double lambda) const;
-  bool apply_step(Graph* graph);
-  void restore_poses(Graph* graph) const;
+  bool apply_step(Graph* graph, double least_move);
+  void restore_poses(Graph* graph, double least_move) const;
+  bool stays(int32_t column, double least_move) const;
 
   BlockPattern pattern_;
   NormalEquations equations_;

@@ -63,18 +63,16 @@ NormalEquations::Ends NormalEquations::ends_of(const Graph& graph, int32_t id) c
   return ends;
 }
 
-bool NormalEquations::clear_wanted() {
-  bool all = true;
+void NormalEquations::keep(Span<const int32_t> columns) {
+  for (int32_t i = 0; i < columns.size(); ++i) gradient_[i] = gradient_[columns[i]];
+}
+
+void NormalEquations::clear_wanted() {
   for (int32_t column = 0; column < columns_; ++column) {
-    if (target_.wants(column)) {
-      gradient_[column] = BlockVector{};
-    } else {
-      all = false;
-    }
+    if (target_.wants(column)) gradient_[column] = BlockVector{};
   }
   gradient_[gradient_.size() - 1] = BlockVector{};
   sink_[0] = Block{};
-  return all;
 }
 
 double NormalEquations::linearize(const Graph& graph, const BlockPattern& pattern,
@@ -82,7 +80,7 @@ double NormalEquations::linearize(const Graph& graph, const BlockPattern& patter
   pattern_ = &pattern;
   target_ = target;
   columns_ = pattern.columns();
-  const bool all = clear_wanted();
+  clear_wanted();
   QuadCollector quads;
   for (int32_t id = 0; id < graph.edge_end(); ++id) {
     const Edge& edge = graph.edge(id);
@@ -92,7 +90,9 @@ double NormalEquations::linearize(const Graph& graph, const BlockPattern& patter
     }
     const int32_t a = pattern.column_of_node(edge.a);
     const int32_t b = pattern.column_of_node(edge.b);
-    if (!all && !(a >= 0 && target.wants(a)) && !(b >= 0 && target.wants(b))) continue;
+    const bool between_fixed = a < 0 && b < 0;
+    const bool wanted = (a >= 0 && target.wants(a)) || (b >= 0 && target.wants(b));
+    if (!between_fixed && !wanted) continue;
     if (is_pose_factor(edge.kind)) {
       add_pose_edge(graph, id, &quads);
     } else {

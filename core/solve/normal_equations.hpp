@@ -25,12 +25,14 @@ class NormalEquations {
   /// @return cost of the graph, sum of rho(u); edges between two fixed nodes count too
   double linearize(const Graph& graph, const BlockPattern& pattern, const Assembly& target);
 
+  /// The structure has changed: `columns`, former numbers ascending, come first now.
+  void keep(Span<const int32_t> columns);
+
   /// g, one vector per column.
   Span<const BlockVector> gradient() const { return {gradient_.data(), columns_}; }
 
  private:
-  /// @return all columns are wanted
-  bool clear_wanted();
+  void clear_wanted();
   void add_pose_edge(const Graph& graph, int32_t id, QuadCollector* quads);
   double add_scale_edge(const Graph& graph, int32_t id);
   struct Ends;
