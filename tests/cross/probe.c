@@ -30,9 +30,9 @@ static void expect(int condition, const char* what) {
 
 /* Keyframe j seen from keyframe i: forward 0.3 each, a slight turn, noise; lengths in `unit`. */
 static unisim_sim3 seen_from(int i, int j, double unit) {
-  unisim_sim3 T = {{0.002 * noise(), 0.01 * (j - i) + 0.002 * noise(), 0.002 * noise(), 1.0},
-                   {0.01 * noise(), 0.01 * noise(), 0.3 * (j - i) + 0.01 * noise()},
-                   1.0};
+  unisim_sim3 T = {{0.0, 0.01 * (j - i), 0.0, 1.0}, {0.0, 0.0, 0.3 * (j - i)}, 1.0};
+  for (int k = 0; k < 3; ++k) T.q[k] += 0.002 * noise(); /* initialisers have no order in C */
+  for (int k = 0; k < 3; ++k) T.t[k] += 0.01 * noise();
   const double length = sqrt(T.q[0] * T.q[0] + T.q[1] * T.q[1] + T.q[2] * T.q[2] + 1.0);
   for (int k = 0; k < 4; ++k) T.q[k] /= length;
   for (int k = 0; k < 3; ++k) T.t[k] /= unit;
@@ -53,14 +53,10 @@ static void answer_pairs(unisim_session* session) {
   while (unisim_next_request(session, UNISIM_REQUEST_PAIR, &want) == UNISIM_OK) {
     const double unit = 1.0 + 0.3 * noise();
     const int i = want.keyframe_ids[0], j = want.keyframe_ids[1];
-    const unisim_two_view pair = {sizeof pair,
-                                  i,
-                                  j,
-                                  0,
-                                  seen_from(i, j, unit),
-                                  depth_in(unit, pixels[0]),
-                                  depth_in(unit, pixels[1]),
-                                  0.0};
+    unisim_two_view pair = {.struct_size = sizeof pair, .i = i, .j = j};
+    pair.T_i_j = seen_from(i, j, unit);
+    pair.depth_i = depth_in(unit, pixels[0]);
+    pair.depth_j = depth_in(unit, pixels[1]);
     expect(unisim_add_two_view(session, &pair) == UNISIM_OK, "unisim_add_two_view");
   }
 }
