@@ -16,12 +16,15 @@ function(unisim_target_defaults target)
 endfunction()
 
 # unisim_target_freestanding(TARGET): what core and capi add: no exceptions, no RTTI, nothing that
-# would pull in libstdc++ at run time, no fused multiply-add, which some processors have and some not.
+# would pull in libstdc++ at run time. No fused multiply-add, which some processors have and some not, and
+# no sums of Eigen's whose order depends on the width of a register: results are the same bits everywhere.
 function(unisim_target_freestanding target)
   target_compile_options(${target} PRIVATE
     $<$<COMPILE_LANGUAGE:CXX>:-fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-math-errno
     -ffp-contract=off>)
   target_compile_definitions(${target} PRIVATE EIGEN_NO_IO EIGEN_MAX_STATIC_ALIGN_BYTES=16)
+  # Whoever links the objects shares Eigen's inline functions with them.
+  target_compile_definitions(${target} PUBLIC EIGEN_DONT_VECTORIZE)
 endfunction()
 
 # unisim_vectorised_sources(TARGET FILES...): compiles sources of TARGET once more for the wider vectors

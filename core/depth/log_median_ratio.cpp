@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/math.hpp"
 #include "core/depth/nth_element.hpp"
 
 namespace unisim {
@@ -52,7 +53,7 @@ Status log_median_ratio(const DepthGrid& a, const DepthGrid& b, double confidenc
   int32_t count = 0;
   for (int32_t i = 0; i < a.depth.size(); ++i) {
     if (!usable(a, limit_a, i) || !usable(b, limit_b, i)) continue;
-    const float log_ratio = std::log(a.depth[i] / b.depth[i]);
+    const float log_ratio = math::log(a.depth[i] / b.depth[i]);
     if (std::isfinite(log_ratio)) scratch[count++] = log_ratio;
   }
   if (count == 0) return Status::kNotReady;

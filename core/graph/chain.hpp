@@ -19,16 +19,4 @@ bool valid_link(const ChainLink& link);
 /// of the whitened norm u, u^2 = e' Lambda e.
 Vec7 chain_residual(const Sim3& T_world_a, const Sim3& T_world_b, const Sim3& Z_a_b);
 
-/// u^2 as a quadratic form of right perturbations of a and b.
-struct ChainNormal {
-  double u_squared;
-  Mat7 H_aa;
-  Mat7 H_ba;
-  Mat7 H_bb;
-  Vec7 g_a;
-  Vec7 g_b;
-};
-void chain_normal(const Sim3& T_world_a, const Sim3& T_world_b, const ChainLink& link,
-                  ChainNormal* out);
-
 }  // namespace unisim

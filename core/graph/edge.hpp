@@ -21,21 +21,22 @@ struct Node {
   bool alive = false;
 };
 
-enum class FactorKind : uint8_t { kTwoView, kBridge, kTie, kScaleAnchor, kScale, kChain };
+enum class FactorKind : uint8_t { kTwoView, kBridge, kTie, kScaleAnchor, kScale, kChain, kRigid };
 
-/// Pose factors have 7 rows and read P (and Q, Lambda), scale factors have 1 and read log_ratio.
+/// Scale factors have 1 row and read log_ratio; pose factors have 7 (rigid ones 6) and read P (and
+/// Q, Lambda).
 constexpr bool is_pose_factor(FactorKind kind) {
-  return kind <= FactorKind::kTie || kind == FactorKind::kChain;
+  return kind != FactorKind::kScaleAnchor && kind != FactorKind::kScale;
 }
 
 /// One factor between nodes a and b. Its cost is rho(u), u = sqrt(information * multiplier) |e|;
-/// of a chain factor u = sqrt(information * multiplier * e' Lambda e).
+/// of chain and rigid factors u = sqrt(information * multiplier * e' Lambda e).
 struct Edge {
   int32_t a = -1;
   int32_t b = -1;
   int32_t P = -1;            ///< measurement slot, pose factors only
   int32_t Q = -1;            ///< second measurement slot; -1: identity
-  int32_t Lambda = -1;       ///< information slot, chain factors only
+  int32_t Lambda = -1;       ///< information slot, chain and rigid factors only
   double log_ratio = 0.0;    ///< c of a scale factor
   double information = 1.0;  ///< weight of the factor kind, > 0
   double multiplier = 1.0;   ///< weight of this edge for its quality, >= 0

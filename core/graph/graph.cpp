@@ -218,15 +218,29 @@ Status Graph::add_scale(int32_t m, int32_t n, double log_c, const EdgeWeight& we
   return add_scale_edge(FactorKind::kScale, m, n, log_c, weight, id);
 }
 
-Status Graph::add_chain(int32_t a, int32_t b, const ChainLink& link, const EdgeWeight& weight,
-                        int32_t* id) {
+Status Graph::add_informed_edge(FactorKind kind, int32_t a, int32_t b, const ChainLink& link,
+                                const EdgeWeight& weight, int32_t* id) {
   if (!valid_link(link)) return Status::kInvalidArgument;
   if (room(informations_, free_informations_) == 0) return Status::kCapacity;
-  const Status status = add_pose_edge(FactorKind::kChain, a, b, link.Z_a_b, nullptr, weight, id);
+  const Status status = add_pose_edge(kind, a, b, link.Z_a_b, nullptr, weight, id);
   if (!is_ok(status)) return status;
   edges_[*id].Lambda = take_slot(&informations_, &free_informations_);
   informations_[edges_[*id].Lambda] = link.Lambda;
   return Status::kOk;
+}
+
+Status Graph::add_chain(int32_t a, int32_t b, const ChainLink& link, const EdgeWeight& weight,
+                        int32_t* id) {
+  return add_informed_edge(FactorKind::kChain, a, b, link, weight, id);
+}
+
+// The row of the log-scale is there for the shape only: its residual is zero.
+Status Graph::add_rigid(int32_t a, int32_t b, const Sim3& Z_a_b, const Mat6& Lambda,
+                        const EdgeWeight& weight, int32_t* id) {
+  if (Z_a_b.s != 1.0) return Status::kInvalidArgument;
+  ChainLink link{Z_a_b, Mat7::Identity()};
+  link.Lambda.topLeftCorner<6, 6>() = Lambda;
+  return add_informed_edge(FactorKind::kRigid, a, b, link, weight, id);
 }
 
 ChainLink Graph::link(const Edge& edge) const {
@@ -303,19 +317,23 @@ Status Graph::set_suspended(int32_t id, bool suspended) {
 Vec7 edge_residual(const Graph& graph, const Edge& edge) {
   const Sim3& A = graph.pose(edge.a);
   const Sim3& B = graph.pose(edge.b);
+  Vec7 e = Vec7::Zero();
+  if (edge.kind == FactorKind::kRigid) {
+    e.head<6>() = rigid_residual(A, B, graph.measurement(edge.P));
+    return e;
+  }
   if (is_pose_factor(edge.kind)) {
     const Sim3 Q = edge.Q < 0 ? Sim3() : graph.measurement(edge.Q);
     return relative_pose_residual(A, B, graph.measurement(edge.P), Q);
   }
-  Vec7 e = Vec7::Zero();
   e(0) = scale_ratio_residual(A, B, edge.log_ratio);
   return e;
 }
 
 double edge_norm_squared(const Graph& graph, const Edge& edge) {
   const Vec7 e = edge_residual(graph, edge);
-  if (edge.kind != FactorKind::kChain) return edge.weight() * e.squaredNorm();
-  return edge.weight() * e.dot(graph.link(edge).Lambda * e);
+  if (edge.Lambda < 0) return edge.weight() * e.squaredNorm();
+  return edge.weight() * e.dot(graph.information(edge.Lambda) * e);
 }
 
 double Graph::edge_norm(int32_t id) const {

@@ -9,6 +9,7 @@
 #include "core/base/status.hpp"
 #include "core/graph/chain.hpp"
 #include "core/graph/edge.hpp"
+#include "core/graph/rigid.hpp"
 
 namespace unisim {
 
@@ -16,9 +17,9 @@ namespace unisim {
 struct GraphCapacity {
   int32_t nodes = 0;
   int32_t edges = 0;
-  int32_t measurements = 0;  ///< 1 per two_view, bridge and chain edge, 2 per tie and rigid bridge
-                             ///< edge, 0 per scale edge
-  int32_t chains = 0;        ///< chain edges among the edges
+  int32_t measurements = 0;  ///< 1 per two_view, bridge, chain and rigid edge, 2 per tie and rigid
+                             ///< bridge edge, 0 per scale edge
+  int32_t chains = 0;        ///< chain and rigid edges among the edges
 };
 
 /// Bits of what happened to a node.
@@ -81,6 +82,11 @@ class Graph {
   /// @return kInvalidArgument also for an information that is not positive definite
   Status add_chain(int32_t a, int32_t b, const ChainLink& link, const EdgeWeight& weight,
                    int32_t* id);
+  /// Nothing depends on the log-scales of a and b: in a graph of rigid edges alone they stay.
+  /// @param Lambda information of rigid_residual(), symmetric, positive definite
+  /// @return kInvalidArgument also for a scale of Z_a_b other than 1
+  Status add_rigid(int32_t a, int32_t b, const Sim3& Z_a_b, const Mat6& Lambda,
+                   const EdgeWeight& weight, int32_t* id);
   Status remove_edge(int32_t id);
 
   /// Put a new measurement into a two_view or bridge edge.
@@ -99,6 +105,7 @@ class Graph {
   int32_t edge_count() const { return edge_count_; }
   const Sim3& measurement(int32_t slot) const { return measurements_[slot]; }
 
+  const Mat7& information(int32_t slot) const { return informations_[slot]; }
   /// What a chain edge holds.
   ChainLink link(const Edge& edge) const;
 
@@ -124,6 +131,8 @@ class Graph {
                        const EdgeWeight& weight, int32_t* id);
   Status add_scale_edge(FactorKind kind, int32_t a, int32_t b, double log_ratio,
                         const EdgeWeight& weight, int32_t* id);
+  Status add_informed_edge(FactorKind kind, int32_t a, int32_t b, const ChainLink& link,
+                           const EdgeWeight& weight, int32_t* id);
   bool joins_two_nodes(int32_t a, int32_t b) const;
   int32_t take_measurement(const Sim3& value);
   void release_edge(int32_t id);
@@ -148,7 +157,7 @@ class Graph {
 /// u^2 of an edge at the present poses.
 double edge_norm_squared(const Graph& graph, const Edge& edge);
 
-/// e of an edge at the given poses; rows beyond the first are zero for scale factors.
+/// e of an edge at the given poses; rows that its factor lacks are zero.
 Vec7 edge_residual(const Graph& graph, const Edge& edge);
 
 }  // namespace unisim

@@ -5,11 +5,11 @@
 // moves t by -hat(t) d and phi by J^-1 d, by a log-scale d moves t by t d and sigma by d, so with
 // rho = V^-1(phi, sigma) t and D = d(V^-1 t)/dphi
 //     J_l^-1 = [[V^-1, D J^-1 - V^-1 hat(t), rho + (dV^-1/dsigma) t], [0, J^-1, 0], [0, 0, 1]].
-// J_r^-1 = J_l^-1 + ad(e), as z / (1 - e^-z) = z / (e^z - 1) + z.
 #include "core/lie/sim3.hpp"
 
 #include <cmath>
 
+#include "core/base/math.hpp"
 #include "core/lie/sim3_coefficients.hpp"
 #include "core/lie/so3.hpp"
 
@@ -42,10 +42,18 @@ Mat3 polynomial(const Vec3& phi, double a, double b, double c) {
   return out;
 }
 
+// The blocks of J^-1 that are not constant: [[V_inv, X, x], [0, J_inv, 0], [0, 0, 1]].
+struct InverseBlocks {
+  Mat3 V_inv;
+  Mat3 X;
+  Mat3 J_inv;
+  Vec3 x;
+};
+
 // Blocks of J_l^-1 at the logarithm of a transform with translation t.
-Sim3JacobianInverse left_inverse_blocks(const Vec3& phi, const Vec3& rho, const Vec3& t,
-                                        const LogCoefficients& k) {
-  Sim3JacobianInverse out;
+InverseBlocks left_inverse_blocks(const Vec3& phi, const Vec3& rho, const Vec3& t,
+                                  const LogCoefficients& k) {
+  InverseBlocks out;
   out.V_inv = polynomial(phi, k.a, k.b, k.c);
   out.J_inv = polynomial(phi, 1.0, -0.5, k.c_rotation);
   const Vec3 once = phi.cross(t);
@@ -58,7 +66,7 @@ Sim3JacobianInverse left_inverse_blocks(const Vec3& phi, const Vec3& rho, const 
   return out;
 }
 
-Mat7 assemble(const Sim3JacobianInverse& blocks) {
+Mat7 assemble(const InverseBlocks& blocks) {
   Mat7 J = Mat7::Zero();
   J.topLeftCorner<3, 3>() = blocks.V_inv;
   J.block<3, 3>(0, 3) = blocks.X;
@@ -114,13 +122,13 @@ Sim3 sim3_exp(const Vec7& xi) {
   Sim3 out;
   out.q = so3_exp(phi);
   out.t = apply(phi, k.A, k.B, k.C, xi.head<3>());
-  out.s = std::exp(sigma);
+  out.s = math::exp(sigma);
   return out;
 }
 
 Vec7 sim3_log(const Sim3& T) {
   const Vec3 phi = so3_log(T.q);
-  const double sigma = std::log(T.s);
+  const double sigma = math::log(T.s);
   const LogCoefficients k = log_coefficients(phi.squaredNorm(), sigma);
   Vec7 xi;
   xi.head<3>() = apply(phi, k.a, k.b, k.c, T.t);
@@ -165,9 +173,9 @@ Mat7 sim3_left_jacobian(const Vec7& xi) {
   const double theta2 = phi.squaredNorm();
   const ExpCoefficients k = exp_coefficients(theta2, xi(6));
   const Vec3 t = apply(phi, k.A, k.B, k.C, xi.head<3>());
-  const Sim3JacobianInverse inverse =
+  const InverseBlocks inverse =
       left_inverse_blocks(phi, xi.head<3>(), t, log_coefficients(theta2, xi(6)));
-  Sim3JacobianInverse out;
+  InverseBlocks out;
   out.V_inv = polynomial(phi, k.A, k.B, k.C);
   out.J_inv = so3_left_jacobian(phi);
   out.X = -out.V_inv * inverse.X * out.J_inv;
@@ -178,23 +186,5 @@ Mat7 sim3_left_jacobian(const Vec7& xi) {
 Mat7 sim3_right_jacobian(const Vec7& xi) { return sim3_left_jacobian(-xi); }
 
 Mat7 sim3_right_jacobian_inverse(const Vec7& xi) { return sim3_left_jacobian_inverse(-xi); }
-
-void sim3_log_with_jacobian(const Sim3& T, Vec7* e, Sim3JacobianInverse* right_inverse) {
-  const Vec3 phi = so3_log(T.q);
-  const double sigma = std::log(T.s);
-  const LogCoefficients k = log_coefficients(phi.squaredNorm(), sigma);
-  const Vec3 rho = apply(phi, k.a, k.b, k.c, T.t);
-  e->head<3>() = rho;
-  e->segment<3>(3) = phi;
-  (*e)(6) = sigma;
-  Sim3JacobianInverse blocks = left_inverse_blocks(phi, rho, T.t, k);
-  const Mat3 K = hat(phi);
-  blocks.V_inv += K;
-  blocks.V_inv.diagonal().array() += sigma;
-  blocks.X += hat(rho);
-  blocks.J_inv += K;
-  blocks.x -= rho;
-  *right_inverse = blocks;
-}
 
 }  // namespace unisim

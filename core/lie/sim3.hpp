@@ -52,16 +52,4 @@ Mat7 sim3_left_jacobian_inverse(const Vec7& xi);
 Mat7 sim3_right_jacobian(const Vec7& xi);
 Mat7 sim3_right_jacobian_inverse(const Vec7& xi);
 
-/// The blocks of J^-1 that are not constant:
-/// [[V_inv, X, x], [0, J_inv, 0], [0, 0, 1]].
-struct Sim3JacobianInverse {
-  Mat3 V_inv;
-  Mat3 X;
-  Mat3 J_inv;
-  Vec3 x;
-};
-
-/// Logarithm e of T and the blocks of J_r^-1(e), sharing the coefficients.
-void sim3_log_with_jacobian(const Sim3& T, Vec7* e, Sim3JacobianInverse* right_inverse);
-
 }  // namespace unisim

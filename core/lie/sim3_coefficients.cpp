@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+#include "core/base/math.hpp"
+
 namespace unisim {
 namespace {
 
@@ -97,8 +99,8 @@ LogCoefficients log_series(double theta2, double sigma, int terms) {
 
 LogCoefficients log_closed(double theta2, double sigma) {
   const AngleTerms angle = angle_terms(theta2);
-  const double E = std::exp(sigma);
-  const double E1 = std::expm1(sigma);
+  const double E = math::exp(sigma);
+  const double E1 = math::expm1(sigma);
   const double versine2 = theta2 * angle.versine;               // 1 - cos
   const double inv_den = 1.0 / (E1 * E1 + 2.0 * E * versine2);  // 1 / |e^z - 1|^2
   const double den_sigma = 2.0 * E * (E1 + versine2);
@@ -133,10 +135,12 @@ LogCoefficients log_closed(double theta2, double sigma) {
 AngleTerms angle_terms(double theta2) {
   if (theta2 >= kAngleSeries) {
     const double theta = std::sqrt(theta2);
-    const double cosine = std::cos(theta);
-    const double half = std::sin(0.5 * theta);
-    const double sinc = std::sin(theta) / theta;
+    double half;  // sine and cosine of theta / 2
+    double half_cosine;
+    math::sin_cos(0.5 * theta, &half, &half_cosine);
+    const double sinc = 2.0 * half * half_cosine / theta;
     const double versine = 2.0 * half * half / theta2;
+    const double cosine = 1.0 - 2.0 * half * half;
     return {cosine, sinc, versine, (cosine - sinc) / theta2, (sinc - 2.0 * versine) / theta2};
   }
   AngleTerms out{0.0, 1.0, 0.5, 0.0, 0.0};
@@ -160,8 +164,8 @@ ExpCoefficients exp_coefficients(double theta2, double sigma) {
   const double z2 = theta2 + sigma * sigma;
   if (z2 < kZSeries) return exp_series(theta2, sigma);
   const AngleTerms angle = angle_terms(theta2);
-  const double E = std::exp(sigma);
-  const double E1 = std::expm1(sigma);
+  const double E = math::exp(sigma);
+  const double E1 = math::expm1(sigma);
   const double A = std::abs(sigma) < 1e-8 ? 1.0 + 0.5 * sigma : E1 / sigma;
   const double B = (sigma * E * angle.sinc - E1 + E * theta2 * angle.versine) / z2;
   const double C = (A + sigma * E * angle.versine - E * angle.sinc) / z2;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/base/math.hpp"
 #include "core/lie/sim3_coefficients.hpp"
 
 namespace unisim {
@@ -36,23 +37,26 @@ Quat so3_exp(const Vec3& phi) {
     k = 0.5 - theta2 * (1.0 / 48 - theta2 / 3840);
   } else {
     const double theta = std::sqrt(theta2);
-    w = std::cos(0.5 * theta);
-    k = std::sin(0.5 * theta) / theta;
+    double sine;
+    math::sin_cos(0.5 * theta, &sine, &w);
+    k = sine / theta;
   }
   return Quat(w, k * phi.x(), k * phi.y(), k * phi.z());
 }
 
-Vec3 so3_log(const Quat& q) {
-  const double n2 = q.x() * q.x() + q.y() * q.y() + q.z() * q.z();
-  const double w = q.w();
+double so3_log_factor(double n2, double w) {
   if (n2 < kLogSeries * w * w) {
     const double r2 = n2 / (w * w);
-    const double k = 2.0 / w * (1.0 - r2 * (1.0 / 3 - r2 * (1.0 / 5 - r2 / 7)));
-    return Vec3(k * q.x(), k * q.y(), k * q.z());
+    return 2.0 / w * (1.0 - r2 * (1.0 / 3 - r2 * (1.0 / 5 - r2 / 7)));
   }
   const double n = std::sqrt(n2);
-  const double k = w < 0.0 ? 2.0 * std::atan2(-n, -w) / n : 2.0 * std::atan2(n, w) / n;
-  return Vec3(k * q.x(), k * q.y(), k * q.z());
+  const double angle = 2.0 * math::first_quadrant_angle(std::abs(w), n);
+  return (w < 0.0 ? -angle : angle) / n;
+}
+
+Vec3 so3_log(const Quat& q) {
+  const Vec3 v(q.x(), q.y(), q.z());
+  return so3_log_factor(v.squaredNorm(), q.w()) * v;
 }
 
 Vec3 rotate(const Quat& q, const Vec3& v) {

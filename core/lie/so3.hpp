@@ -15,6 +15,9 @@ Quat so3_exp(const Vec3& phi);
 /// Rotation vector of a unit quaternion, |phi| <= pi; q and -q give the same, stable up to pi.
 Vec3 so3_log(const Quat& q);
 
+/// Factor from the vector part of a unit quaternion to so3_log(); n2: square of that part's norm.
+double so3_log_factor(double n2, double w);
+
 /// q v q*: two cross products, no matrix.
 Vec3 rotate(const Quat& q, const Vec3& v);
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/math.hpp"
+
 namespace unisim {
 namespace {
 
@@ -21,7 +23,7 @@ void DepthArchive::put(int32_t keyframe, Span<const float> depth) {
       codes[cell] = 0;
       continue;
     }
-    const double code = 1.0 + std::floor((std::log(depth[cell]) + kLogRange) / kStep + 0.5);
+    const double code = 1.0 + std::floor((math::log(depth[cell]) + kLogRange) / kStep + 0.5);
     codes[cell] = static_cast<uint16_t>(std::min(std::max(code, 1.0), kLastCode));
   }
 }
@@ -30,7 +32,7 @@ void DepthArchive::get(int32_t keyframe, Span<float> depth) const {
   const Span<const uint16_t> codes = codes_.subspan(keyframe * kGrid.cells(), kGrid.cells());
   for (int32_t cell = 0; cell < codes.size(); ++cell) {
     const double log_depth = (codes[cell] - 1) * kStep - kLogRange;
-    depth[cell] = codes[cell] == 0 ? 0.0F : static_cast<float>(std::exp(log_depth));
+    depth[cell] = codes[cell] == 0 ? 0.0F : static_cast<float>(math::exp(log_depth));
   }
 }
 

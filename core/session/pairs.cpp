@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Keyframes and two-view predictions: the live chain, held poses, segments.
 #include <algorithm>
-#include <cmath>
 
+#include "core/base/math.hpp"
 #include "core/graph/two_view.hpp"
 #include "core/session.hpp"
 
@@ -90,14 +90,15 @@ void Session::accept_pair(const TwoViewInput& input, double log_ratio, double mu
   }
   const Keyframe& i = keyframes_[input.i];
   const Sim3& T_world_i = graph_.pose(i.node);
-  const double live_ratio = paper ? 1.0 : std::exp(config_.live_scale_exponent * log_ratio);
+  const double live_ratio = paper ? 1.0 : math::exp(config_.live_scale_exponent * log_ratio);
   give_node(input.j, T_world_i * Sim3::scaling(live_ratio) * input.T_i_j, i.segment);
   depth_.load(input.depth_j);
   depth_.keep_two_view(input.j);
   if (broken_) return;
 
   if (config_.factor(FactorKind::kTwoView).enabled) {
-    const Sim3 Z_i_j = paper ? input.T_i_j : two_view_measurement(input.T_i_j, std::exp(log_ratio));
+    const Sim3 Z_i_j =
+        paper ? input.T_i_j : two_view_measurement(input.T_i_j, math::exp(log_ratio));
     int32_t edge = -1;
     holds(graph_.add_two_view(i.node, keyframes_[input.j].node, Z_i_j,
                               edge_weight(FactorKind::kTwoView, multiplier, false), &edge));

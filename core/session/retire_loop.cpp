@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A loop whose keyframes have all retired becomes one chain edge between two windows.
-#include <cmath>
 
+#include "core/base/math.hpp"
 #include "core/session.hpp"
 
 namespace unisim {
@@ -128,7 +128,7 @@ bool Session::condense_loop(const Submap& loop, int32_t a, int32_t b, int32_t sp
     }
     if (fits && config_.factor(FactorKind::kScaleAnchor).enabled) {
       fits = is_ok(
-          local.add_scale_anchor(local_loop, place, view.log_rho - std::log(X.s), anchor, &edge));
+          local.add_scale_anchor(local_loop, place, view.log_rho - math::log(X.s), anchor, &edge));
     }
   }
   return fits && condenser_.condense(local_a, local_b, link);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A submap measured anew: its edges get the better numbers.
 #include <algorithm>
-#include <cmath>
 
+#include "core/base/math.hpp"
 #include "core/session.hpp"
 
 namespace unisim {
@@ -38,7 +38,7 @@ void Session::update_views(const SubmapUpdate& update, Submap* submap) {
     SubmapView& view = submaps_.view(*submap, k);
     view.T_submap_kf = between(T_origin, update.T_submap_kf[k]);
     view.log_rho += update.log_depth_ratio[k];
-    depth_.rescale_submap(update.submap, k, std::exp(update.log_depth_ratio[k]));
+    depth_.rescale_submap(update.submap, k, math::exp(update.log_depth_ratio[k]));
     if (view.bridge >= 0) {
       set_bridge_measurement(view);
       holds(graph_.set_multiplier(view.bridge, submap->multiplier));
@@ -50,7 +50,7 @@ void Session::update_views(const SubmapUpdate& update, Submap* submap) {
     }
   }
   // The unit may be another one: the submap's scale follows, so that its origin keyframe stays.
-  const double unit = std::exp(-update.log_depth_ratio[submap->origin]);
+  const double unit = math::exp(-update.log_depth_ratio[submap->origin]);
   holds(graph_.set_pose(submap->node, graph_.pose(submap->node) * Sim3::scaling(unit)));
 }
 

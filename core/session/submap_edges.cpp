@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/math.hpp"
 #include "core/depth/nth_element.hpp"
 #include "core/graph/bridge.hpp"
 #include "core/graph/tie.hpp"
@@ -13,13 +14,13 @@ namespace unisim {
 
 Sim3 Session::view_measurement(const SubmapView& view) const {
   if (config_.preset == Preset::kPaper) return view.T_submap_kf;
-  return bridge_measurement(view.T_submap_kf, std::exp(view.log_rho));
+  return bridge_measurement(view.T_submap_kf, math::exp(view.log_rho));
 }
 
 Sim3 Session::shared_measurement(const SharedKeyframe& shared) const {
   const SubmapView& view = submaps_.view(submaps_[shared.m], shared.view_m);
   if (config_.preset == Preset::kPaper) return view.T_submap_kf;
-  return tie_measurement(view.T_submap_kf, std::exp(shared.log_c));
+  return tie_measurement(view.T_submap_kf, math::exp(shared.log_c));
 }
 
 void Session::add_view_edges(int32_t id) {
@@ -48,7 +49,7 @@ void Session::attach_view(const Submap& submap, SubmapView* view) {
   if (config_.factor(FactorKind::kScaleAnchor).enabled) {
     const EdgeWeight weight =
         edge_weight(FactorKind::kScaleAnchor, submap.multiplier, submap.is_loop);
-    const double log_ratio = rigid ? view->log_rho - std::log(T_node_kf.s) : view->log_rho;
+    const double log_ratio = rigid ? view->log_rho - math::log(T_node_kf.s) : view->log_rho;
     holds(graph_.add_scale_anchor(submap.node, node, log_ratio, weight, &view->anchor));
   }
 }

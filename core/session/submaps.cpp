@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/math.hpp"
 #include "core/depth/nth_element.hpp"
 #include "core/graph/bridge.hpp"
 #include "core/session.hpp"
@@ -146,7 +147,7 @@ void Session::refuse_submap(bool is_loop) {
 void Session::place_submap(Submap* submap) {
   const SubmapView& origin = submaps_.view(*submap, submap->origin);
   const Sim3 T_world_origin = keyframe_pose(origin.keyframe);
-  const Sim3 T_world_submap = T_world_origin * Sim3::scaling(std::exp(-origin.log_rho));
+  const Sim3 T_world_submap = T_world_origin * Sim3::scaling(math::exp(-origin.log_rho));
   if (!holds(graph_.add_node(NodeKind::kSubmap, T_world_submap, &submap->node))) return;
   for (int32_t k = 0; k < submap->count; ++k) {
     const SubmapView& view = submaps_.view(*submap, k);
@@ -169,7 +170,7 @@ void Session::join_segment(const Submap& submap, int32_t segment, int32_t into) 
   }
   const SubmapView& view = submaps_.view(submap, best);
   const Sim3 T_world_kf =
-      graph_.pose(submap.node) * bridge_measurement(view.T_submap_kf, std::exp(view.log_rho));
+      graph_.pose(submap.node) * bridge_measurement(view.T_submap_kf, math::exp(view.log_rho));
   const Sim3 correction = T_world_kf * keyframe_pose(view.keyframe).inverse();
   move_retired(segment, correction);
   for (int32_t id = 0; id < submaps_.size(); ++id) {

@@ -2,80 +2,62 @@
 // Linearised cost of a graph.
 #include "core/solve/normal_equations.hpp"
 
-#include "core/graph/chain.hpp"
-#include "core/graph/relative_pose.hpp"
+#include <limits>
+
 #include "core/graph/scale_ratio.hpp"
+#include "core/solve/quad_collector.hpp"
 
 namespace unisim {
 namespace {
 
 constexpr int kLogScale = 6;
 
-// Lower triangle += w S.
-void add_symmetric(Block& block, double w, const SymmetricBlocks& S) {
-  for (int c = 0; c < 3; ++c) {
-    for (int r = c; r < 3; ++r) {
-      block.at(r, c) += w * S.tt(r, c);
-      block.at(r + 3, c + 3) += w * S.rr(r, c);
-    }
-    for (int r = 0; r < 3; ++r) block.at(r + 3, c) += w * S.tr(c, r);
-    block.at(6, c) += w * S.ts(c);
-    block.at(6, c + 3) += w * S.rs(c);
-  }
-  block.at(6, 6) += w * S.ss;
+QuadShape shape_of(const Edge& edge) {
+  if (edge.kind == FactorKind::kChain) return QuadShape::kChain;
+  if (edge.kind == FactorKind::kRigid) return QuadShape::kRigid;
+  return edge.Q < 0 ? QuadShape::kOneMeasurement : QuadShape::kTwoMeasurements;
 }
 
-// Lower triangle += w M.
-void add_lower(Block& block, double w, const Mat7& M) {
-  for (int c = 0; c < kTangentDim; ++c) {
-    for (int r = c; r < kTangentDim; ++r) block.at(r, c) += w * M(r, c);
-  }
-}
-
-// Block += w H_ba, transposed when its rows are those of a.
-void add_coupling(Block& block, double w, const Mat7& H_ba, bool a_is_later) {
-  for (int c = 0; c < kTangentDim; ++c) {
-    for (int r = 0; r < kTangentDim; ++r) {
-      block.at(r, c) += w * (a_is_later ? H_ba(c, r) : H_ba(r, c));
-    }
-  }
-}
-
-void add_vector(BlockVector& target, double w, const Vec7& g) {
-  for (int r = 0; r < kTangentDim; ++r) target.v[r] += w * g(r);
-}
+// A Sim3 as eight numbers in a row.
+const double* numbers(const Sim3& T) { return T.q.coeffs().data(); }
 
 }  // namespace
 
-/// Columns and blocks an edge adds to; -1 or nullptr: none there.
+/// Where an edge adds: the sinks for what is fixed or not wanted.
 struct NormalEquations::Ends {
-  int32_t a;
-  int32_t b;
   Block* diagonal_a;
   Block* diagonal_b;
   Block* coupling;
+  BlockVector* gradient_a;
+  BlockVector* gradient_b;
   bool a_is_later;
 };
 
+// The last element of the gradient and the block are sinks: what is added there nobody reads.
 NormalEquations::NormalEquations(Arena& arena, const SolverCapacity& capacity)
-    : gradient_(arena.take<BlockVector>(capacity.nodes)),
+    : gradient_(arena.take<BlockVector>(capacity.nodes + 1)),
+      sink_(arena.take<Block>(1)),
       edge_cost_(arena.take<double>(capacity.edges)) {}
 
 NormalEquations::Ends NormalEquations::ends_of(const Graph& graph, int32_t id) const {
   const Edge& edge = graph.edge(id);
-  const auto wanted = [&](int32_t node) {
-    const int32_t column = pattern_->column_of_node(node);
-    return column >= 0 && target_.wants(column) ? column : -1;
-  };
-  const auto diagonal = [&](int32_t column) {
-    return column < 0 ? nullptr : target_.blocks + target_.diagonal[column];
-  };
-  Ends ends = {wanted(edge.a), wanted(edge.b), nullptr, nullptr, nullptr, false};
-  ends.diagonal_a = diagonal(ends.a);
-  ends.diagonal_b = diagonal(ends.b);
   const EdgeSlot place = pattern_->edge_slot(id);
-  ends.a_is_later = place.a_is_later;
-  if (place.slot >= 0 && (place.a_is_later ? ends.b : ends.a) >= 0) {
+  const int32_t a = pattern_->column_of_node(edge.a);
+  const int32_t b = pattern_->column_of_node(edge.b);
+  const bool wants_a = a >= 0 && target_.wants(a);
+  const bool wants_b = b >= 0 && target_.wants(b);
+  Block* const sink = sink_.data();
+  BlockVector* const no_gradient = &gradient_[gradient_.size() - 1];
+  Ends ends = {sink, sink, sink, no_gradient, no_gradient, place.a_is_later};
+  if (wants_a) {
+    ends.diagonal_a = target_.blocks + target_.diagonal[a];
+    ends.gradient_a = &gradient_[a];
+  }
+  if (wants_b) {
+    ends.diagonal_b = target_.blocks + target_.diagonal[b];
+    ends.gradient_b = &gradient_[b];
+  }
+  if (place.slot >= 0 && (place.a_is_later ? wants_b : wants_a)) {
     ends.coupling = target_.blocks + target_.off_diagonal[place.slot];
   }
   return ends;
@@ -85,15 +67,21 @@ void NormalEquations::keep(Span<const int32_t> columns) {
   for (int32_t i = 0; i < columns.size(); ++i) gradient_[i] = gradient_[columns[i]];
 }
 
+void NormalEquations::clear_wanted() {
+  for (int32_t column = 0; column < columns_; ++column) {
+    if (target_.wants(column)) gradient_[column] = BlockVector{};
+  }
+  gradient_[gradient_.size() - 1] = BlockVector{};
+  sink_[0] = Block{};
+}
+
 double NormalEquations::linearize(const Graph& graph, const BlockPattern& pattern,
                                   const Assembly& target) {
   pattern_ = &pattern;
   target_ = target;
   columns_ = pattern.columns();
-  for (int32_t column = 0; column < columns_; ++column) {
-    if (target.wants(column)) gradient_[column] = BlockVector{};
-  }
-  double cost = 0.0;
+  clear_wanted();
+  QuadCollector quads;
   for (int32_t id = 0; id < graph.edge_end(); ++id) {
     const Edge& edge = graph.edge(id);
     if (!edge.active()) {
@@ -103,57 +91,40 @@ double NormalEquations::linearize(const Graph& graph, const BlockPattern& patter
     const int32_t a = pattern.column_of_node(edge.a);
     const int32_t b = pattern.column_of_node(edge.b);
     const bool between_fixed = a < 0 && b < 0;
-    if (between_fixed || (a >= 0 && target.wants(a)) || (b >= 0 && target.wants(b))) {
-      edge_cost_[id] = add_edge(graph, id);
+    const bool wanted = (a >= 0 && target.wants(a)) || (b >= 0 && target.wants(b));
+    if (!between_fixed && !wanted) continue;
+    if (is_pose_factor(edge.kind)) {
+      add_pose_edge(graph, id, &quads);
+    } else {
+      edge_cost_[id] = add_scale_edge(graph, id);
     }
-    cost += edge_cost_[id];
   }
+  quads.finish();
+  double cost = 0.0;
+  for (int32_t id = 0; id < graph.edge_end(); ++id) cost += edge_cost_[id];
   return cost;
 }
 
-double NormalEquations::add_edge(const Graph& graph, int32_t id) {
-  const FactorKind kind = graph.edge(id).kind;
-  if (kind == FactorKind::kChain) return add_chain_edge(graph, id);
-  return is_pose_factor(kind) ? add_pose_edge(graph, id) : add_scale_edge(graph, id);
-}
-
-double NormalEquations::add_pose_edge(const Graph& graph, int32_t id) {
+void NormalEquations::add_pose_edge(const Graph& graph, int32_t id, QuadCollector* quads) {
   const Edge& edge = graph.edge(id);
-  RelativePoseNormal normal;
-  relative_pose_normal(graph.pose(edge.a), graph.pose(edge.b), graph.measurement(edge.P),
-                       edge.Q < 0 ? nullptr : &graph.measurement(edge.Q), &normal);
-  const RobustCost robust = robust_cost(edge.kernel, edge.weight() * normal.e.squaredNorm());
-  const double w = edge.weight() * robust.weight;
   const Ends ends = ends_of(graph, id);
-  if (ends.a >= 0) {
-    add_symmetric(*ends.diagonal_a, w, normal.H_aa);
-    add_vector(gradient_[ends.a], w, normal.g_a);
-  }
-  if (ends.b >= 0) {
-    add_symmetric(*ends.diagonal_b, w, normal.H_bb);
-    add_vector(gradient_[ends.b], w, normal.g_b);
-  }
-  if (ends.coupling != nullptr) add_coupling(*ends.coupling, w, normal.H_ba, ends.a_is_later);
-  return robust.cost;
-}
-
-double NormalEquations::add_chain_edge(const Graph& graph, int32_t id) {
-  const Edge& edge = graph.edge(id);
-  ChainNormal normal;
-  chain_normal(graph.pose(edge.a), graph.pose(edge.b), graph.link(edge), &normal);
-  const RobustCost robust = robust_cost(edge.kernel, edge.weight() * normal.u_squared);
-  const double w = edge.weight() * robust.weight;
-  const Ends ends = ends_of(graph, id);
-  if (ends.a >= 0) {
-    add_lower(*ends.diagonal_a, w, normal.H_aa);
-    add_vector(gradient_[ends.a], w, normal.g_a);
-  }
-  if (ends.b >= 0) {
-    add_lower(*ends.diagonal_b, w, normal.H_bb);
-    add_vector(gradient_[ends.b], w, normal.g_b);
-  }
-  if (ends.coupling != nullptr) add_coupling(*ends.coupling, w, normal.H_ba, ends.a_is_later);
-  return robust.cost;
+  QuadEdge out;
+  out.A = numbers(graph.pose(edge.a));
+  out.B = numbers(graph.pose(edge.b));
+  out.P = numbers(graph.measurement(edge.P));
+  out.Q = edge.Q < 0 ? nullptr : numbers(graph.measurement(edge.Q));
+  out.Lambda = edge.Lambda < 0 ? nullptr : graph.information(edge.Lambda).data();
+  out.weight = edge.weight();
+  out.delta = edge.kernel.kind == RobustKernelKind::kNone ? std::numeric_limits<double>::infinity()
+                                                          : edge.kernel.delta;
+  out.geman_mcclure = edge.kernel.kind == RobustKernelKind::kGemanMcClure;
+  out.H_aa = ends.diagonal_a;
+  out.H_bb = ends.diagonal_b;
+  out.H_ab = ends.coupling;
+  out.g_a = ends.gradient_a->v;
+  out.g_b = ends.gradient_b->v;
+  out.cost = &edge_cost_[id];
+  quads->add(shape_of(edge), ends.a_is_later, out);
 }
 
 double NormalEquations::add_scale_edge(const Graph& graph, int32_t id) {
@@ -162,15 +133,11 @@ double NormalEquations::add_scale_edge(const Graph& graph, int32_t id) {
   const RobustCost robust = robust_cost(edge.kernel, edge.weight() * e * e);
   const double w = edge.weight() * robust.weight;
   const Ends ends = ends_of(graph, id);
-  if (ends.a >= 0) {
-    ends.diagonal_a->at(kLogScale, kLogScale) += w;
-    gradient_[ends.a].v[kLogScale] -= w * e;
-  }
-  if (ends.b >= 0) {
-    ends.diagonal_b->at(kLogScale, kLogScale) += w;
-    gradient_[ends.b].v[kLogScale] += w * e;
-  }
-  if (ends.coupling != nullptr) ends.coupling->at(kLogScale, kLogScale) -= w;
+  ends.diagonal_a->at(kLogScale, kLogScale) += w;
+  ends.gradient_a->v[kLogScale] -= w * e;
+  ends.diagonal_b->at(kLogScale, kLogScale) += w;
+  ends.gradient_b->v[kLogScale] += w * e;
+  ends.coupling->at(kLogScale, kLogScale) -= w;
   return robust.cost;
 }
 

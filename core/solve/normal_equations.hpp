@@ -12,6 +12,8 @@
 
 namespace unisim {
 
+class QuadCollector;
+
 /// Puts H (IRLS weights included) and g together from the edges of a graph.
 class NormalEquations {
  public:
@@ -30,9 +32,8 @@ class NormalEquations {
   Span<const BlockVector> gradient() const { return {gradient_.data(), columns_}; }
 
  private:
-  double add_pose_edge(const Graph& graph, int32_t id);
-  double add_chain_edge(const Graph& graph, int32_t id);
-  double add_edge(const Graph& graph, int32_t id);
+  void clear_wanted();
+  void add_pose_edge(const Graph& graph, int32_t id, QuadCollector* quads);
   double add_scale_edge(const Graph& graph, int32_t id);
   struct Ends;
   Ends ends_of(const Graph& graph, int32_t id) const;
@@ -41,6 +42,7 @@ class NormalEquations {
   Assembly target_ = {};
   int32_t columns_ = 0;
   Span<BlockVector> gradient_;
+  Span<Block> sink_;
   Span<double> edge_cost_;
 };
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/recorded_data.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/bench/solver/problem.hpp"
 
@@ -13,6 +14,11 @@ using namespace unisim;
 using namespace unisim::bench;
 
 namespace {
+
+constexpr double kTinyGrid3D = 3.3639408107431676;
+constexpr double kSmallGrid3D = 229.07689232365948;
+constexpr double kParkingGarage = 0.6193452899774295;
+constexpr double kSphere2500 = 363.5748336240913;
 
 PoseGraph read(const std::string& content) {
   TempFolder folder;
@@ -87,4 +93,24 @@ TEST_CASE("the factor's declared size is the one the solver needs") {
   CHECK(report.factor_blocks == needed);
   Problem small(graph, needed - 1);
   CHECK(small.solver().optimize(&small.graph(), options, &report) == Status::kCapacity);
+}
+
+// Half of g2o's chi2 where this solver stops, from the poses in the file: a guard against
+// regressions.
+TEST_CASE("pose graphs on SE(3) end at the stored costs") {
+  struct Known {
+    const char* name;
+    double cost;
+  };
+  for (const Known& known :
+       {Known{"tinyGrid3D", kTinyGrid3D}, Known{"smallGrid3D", kSmallGrid3D},
+        Known{"parking-garage", kParkingGarage}, Known{"sphere2500", kSphere2500}}) {
+    const std::string path = recorded_data(std::string("pose_graphs/") + known.name + ".g2o");
+    UNISIM_SKIP_WITHOUT(path);
+    const SolverRun run = solve(read_pose_graph(path));
+    CAPTURE(known.name);
+    CHECK(run.status == Status::kOk);
+    CHECK(run.report.initial_cost == Approx(run.first_cost));
+    CHECK(run.cost == Approx(known.cost).epsilon(1e-6));
+  }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every factor's Jacobians against central differences, small and large residuals.
 #include "core/graph/bridge.hpp"
+#include "core/graph/rigid.hpp"
 #include "core/graph/scale.hpp"
 #include "core/graph/scale_anchor.hpp"
 #include "core/graph/tie.hpp"
@@ -91,22 +92,18 @@ TEST_CASE("Jacobians of the scale factors are -1 and +1 on the log-scale") {
   }
 }
 
-TEST_CASE("the products without Jacobians equal the products of the Jacobians") {
-  for_all_cases([](const Case& c) {
-    const Sim3 B = c.A * c.P * c.error * c.Q.inverse();
-    const RelativePoseJacobians J = relative_pose_jacobians(c.A, B, c.P, c.Q);
-    RelativePoseNormal normal;
-    relative_pose_normal(c.A, B, c.P, &c.Q, &normal);
-    const double size = J.J_e_A.squaredNorm() + J.J_e_B.squaredNorm() + 1.0;
-    CHECK(difference(normal.H_ba, J.J_e_B.transpose() * J.J_e_A) < 1e-11 * size);
-    CHECK(difference(normal.g_a, J.J_e_A.transpose() * J.e) < 1e-11 * size);
-    CHECK(difference(normal.g_b, J.J_e_B.transpose() * J.e) < 1e-11 * size);
-    const Mat7 aa = J.J_e_A.transpose() * J.J_e_A;
-    CHECK(difference(normal.H_aa.tt, aa.topLeftCorner<3, 3>()) < 1e-11 * size);
-    CHECK(difference(normal.H_aa.tr, aa.block<3, 3>(0, 3)) < 1e-11 * size);
-    CHECK(difference(normal.H_aa.rr, aa.block<3, 3>(3, 3)) < 1e-11 * size);
-    CHECK(difference(normal.H_aa.ts, aa.block<3, 1>(0, 6)) < 1e-11 * size);
-    CHECK(difference(normal.H_aa.rs, aa.block<3, 1>(3, 6)) < 1e-11 * size);
-    CHECK(std::abs(normal.H_aa.ss - aa(6, 6)) < 1e-11 * size);
-  });
+TEST_CASE("Jacobians of rigid") {
+  Random random(31);
+  for (const double angle : {0.0, 1e-9, 1e-3, 0.4, 2.0, 2.9, 3.5, 5.0}) {
+    CAPTURE(angle);
+    const Sim3 A = random.pose(3.0, 3.0, 0.0);
+    const Sim3 Z = random.pose(2.0, 2.0, 0.0);
+    const Sim3 B = A * Z * sim3_exp(random.tangent(0.5, angle, 0.0));
+    const auto of_A = [&](const Sim3& at) -> Eigen::VectorXd { return rigid_residual(at, B, Z); };
+    const auto of_B = [&](const Sim3& at) -> Eigen::VectorXd { return rigid_residual(A, at, Z); };
+    const RigidJacobians J = rigid_jacobians(A, B, Z);
+    CHECK(difference(J.J_e_a, numeric_jacobian(A, of_A).leftCols<6>()) < 1e-9);
+    CHECK(difference(J.J_e_b, numeric_jacobian(B, of_B).leftCols<6>()) < 1e-9);
+    CHECK(difference(J.e, rigid_residual(A, B, Z)) == 0.0);
+  }
 }

@@ -113,22 +113,6 @@ TEST_CASE("the right Jacobian inverse is the derivative of log") {
   });
 }
 
-TEST_CASE("log with its Jacobian agrees with the separate functions") {
-  for_all_tangents([](const Vec7& xi) {
-    const Sim3 T = sim3_exp(xi);
-    Vec7 e;
-    Sim3JacobianInverse blocks;
-    sim3_log_with_jacobian(T, &e, &blocks);
-    CHECK(difference(e, sim3_log(T)) == 0.0);
-    const Mat7 J = sim3_right_jacobian_inverse(e);
-    const double scale = 1.0 + J.cwiseAbs().maxCoeff();
-    CHECK(difference(blocks.V_inv, J.topLeftCorner<3, 3>()) < 1e-12 * scale);
-    CHECK(difference(blocks.X, J.block<3, 3>(0, 3)) < 1e-12 * scale);
-    CHECK(difference(blocks.J_inv, J.block<3, 3>(3, 3)) < 1e-12 * scale);
-    CHECK(difference(blocks.x, J.block<3, 1>(0, 6)) < 1e-12 * scale);
-  });
-}
-
 TEST_CASE("rotations: exp, log and Jacobian over the whole range") {
   Random random(9);
   for (const double angle : kAngles) {

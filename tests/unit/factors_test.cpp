@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The five factors: zero where the formula says so, and one hand-computed residual each.
 #include "core/graph/bridge.hpp"
+#include "core/graph/rigid.hpp"
 #include "core/graph/scale.hpp"
 #include "core/graph/scale_anchor.hpp"
 #include "core/graph/tie.hpp"
@@ -90,4 +91,15 @@ TEST_CASE("scale residuals are differences of logarithms") {
   const Sim3 b = Sim3::scaling(6.0);
   CHECK(scale_anchor_residual(a, b, 0.1) == Approx(std::log(3.0) - 0.1));
   CHECK(scale_residual(b, a, 0.0) == Approx(-std::log(3.0)));
+}
+
+TEST_CASE("a rigid residual is the shift and half the rotation, of the quaternion with w >= 0") {
+  const Sim3 a = about_z(0.3, 1, 0, 0, 1);
+  const Sim3 Z = about_z(0.2, 0, 1, 0, 1);
+  Sim3 b = a * Z * about_z(0.5, 1, 2, 3, 1);
+  Vec6 expected;
+  expected << 1, 2, 3, 0, 0, std::sin(0.25);
+  CHECK(difference(rigid_residual(a, b, Z), expected) < 1e-15);
+  b.q.coeffs() *= -1.0;
+  CHECK(difference(rigid_residual(a, b, Z), expected) < 1e-15);
 }

@@ -201,3 +201,27 @@ TEST_CASE("a chain edge wants room and a positive definite information") {
     REQUIRE(pair.graph->remove_edge(id) == Status::kOk);
   }
 }
+
+TEST_CASE("a rigid edge adds J' Lambda J, holds the log-scales and counts half of e' Lambda e") {
+  Pair pair;
+  pair.A.s = pair.B.s = pair.P.s = 1.0;
+  REQUIRE(pair.graph->set_pose(0, pair.A) == Status::kOk);
+  REQUIRE(pair.graph->set_pose(1, pair.B) == Status::kOk);
+  const Mat6 Lambda = information(3).topLeftCorner<6, 6>();
+  int32_t id = -1;
+  REQUIRE(pair.graph->add_rigid(0, 1, pair.P, Lambda, {}, &id) == Status::kOk);
+  const RigidJacobians J = rigid_jacobians(pair.A, pair.B, pair.P);
+  CHECK(pair.linearize() == Approx(0.5 * J.e.dot(Lambda * J.e)));
+  CHECK(pair.graph->cost() == Approx(0.5 * J.e.dot(Lambda * J.e)));
+  Dense H = Dense::Zero();
+  H(6, 6) = 1.0;
+  H.topLeftCorner<6, 6>() = J.J_e_b.transpose() * Lambda * J.J_e_b;
+  CHECK(difference(pair.diagonal(1), H) < 1e-12 * H.norm());
+  H.topLeftCorner<6, 6>() = J.J_e_a.transpose() * Lambda * J.J_e_a;
+  CHECK(difference(pair.diagonal(0), H) < 1e-12 * H.norm());
+  CHECK(pair.gradient(0)(6) == 0.0);
+  CHECK(pair.gradient(1)(6) == 0.0);
+  Sim3 scaled = pair.P;
+  scaled.s = 1.5;
+  CHECK(pair.graph->add_rigid(0, 1, scaled, Lambda, {}, &id) == Status::kInvalidArgument);
+}

@@ -7,11 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/lie/sim3.hpp"
+#include "core/graph/rigid.hpp"
 
 namespace unisim::bench {
-
-using Mat6 = Eigen::Matrix<double, 6, 6, Eigen::DontAlign>;
 
 struct FileNode {
   Sim3 T_world_node;

@@ -23,7 +23,7 @@ EdgeWeight weight_of(const FileEdge& edge) {
   return weight;
 }
 
-Status add(const FileEdge& edge, Graph* graph) {
+Status add(const PoseGraph& source, const FileEdge& edge, Graph* graph) {
   int32_t id = -1;
   const EdgeWeight weight = weight_of(edge);
   switch (edge.kind) {
@@ -38,10 +38,11 @@ Status add(const FileEdge& edge, Graph* graph) {
     case FileEdgeKind::kScale:
       return graph->add_scale(edge.a, edge.b, edge.log_ratio, weight, &id);
     case FileEdgeKind::kRigid:
-      break;
+      return graph->add_rigid(edge.a, edge.b, edge.P,
+                              source.information[static_cast<size_t>(edge.information)], weight,
+                              &id);
   }
-  throw Failure(replay::kExitUsage,
-                "SE(3) edges of .g2o files are not built yet: give a .usg file");
+  return Status::kInvalidArgument;
 }
 
 void expect_ok(Status status, const std::string& where) {
@@ -74,7 +75,8 @@ int32_t needed_factor_blocks(const PoseGraph& source) {
 Problem::Problem(const PoseGraph& source, int32_t factor_blocks, Empty) {
   const int32_t nodes = static_cast<int32_t>(source.nodes.size());
   const int32_t edges = static_cast<int32_t>(source.edges.size());
-  const GraphCapacity graph_capacity{nodes, edges, measurements_of(source)};
+  const GraphCapacity graph_capacity{nodes, edges, measurements_of(source),
+                                     static_cast<int32_t>(source.information.size())};
   const SolverCapacity solver_capacity{nodes, edges, edges, factor_blocks};
   Arena dry;
   Graph counted_graph(dry, graph_capacity);
@@ -88,7 +90,7 @@ Problem::Problem(const PoseGraph& source, int32_t factor_blocks, Empty) {
 Problem::Problem(const PoseGraph& source, int32_t factor_blocks)
     : Problem(source, factor_blocks, Empty()) {
   for (const FileNode& node : source.nodes) add_node(node);
-  for (const FileEdge& edge : source.edges) add_edge(edge);
+  for (const FileEdge& edge : source.edges) add_edge(source, edge);
 }
 
 void Problem::add_node(const FileNode& node) {
@@ -99,8 +101,9 @@ void Problem::add_node(const FileNode& node) {
   expect_ok(status, "node " + std::to_string(graph_.node_count()) + " of the file");
 }
 
-void Problem::add_edge(const FileEdge& edge) {
-  expect_ok(add(edge, &graph_), "edge " + std::to_string(graph_.edge_count() + 1) + " of the file");
+void Problem::add_edge(const PoseGraph& source, const FileEdge& edge) {
+  expect_ok(add(source, edge, &graph_),
+            "edge " + std::to_string(graph_.edge_count() + 1) + " of the file");
 }
 
 }  // namespace unisim::bench

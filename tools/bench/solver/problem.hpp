@@ -30,7 +30,7 @@ class Problem {
 
   /// @throws replay::Failure when the core refuses it
   void add_node(const FileNode& node);
-  void add_edge(const FileEdge& edge);
+  void add_edge(const PoseGraph& source, const FileEdge& edge);
 
   Graph& graph() { return graph_; }
   LevenbergMarquardt& solver() { return solver_; }

@@ -40,7 +40,7 @@ class Arrival {
     problem_.add_node(node);
     int32_t oldest = static_cast<int32_t>(place);
     for (const FileEdge* edge : edges_of_[place]) {
-      problem_.add_edge(*edge);
+      problem_.add_edge(source_, *edge);
       oldest = std::min({oldest, edge->a, edge->b});
     }
     if (!node.submap) before_ = static_cast<int32_t>(place);
