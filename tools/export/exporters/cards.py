@@ -52,7 +52,7 @@ _CARDS = (
     ModelCard(
         name="salad", module="salad_model", package="models.aggregators.salad",
         install="a checkout of github.com/serizba/salad and --package-path, "
-                "pip install transformers",
+                "pip install timm",
         weights="dino_salad.ckpt of github.com/serizba/salad/releases", license="GPL-3.0",
         products=False, kind="descriptor", size=(224, 308), mean=IMAGENET_MEAN,
         std=IMAGENET_STD, resize="stretch"),
