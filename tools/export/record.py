@@ -130,8 +130,10 @@ def write_all(record: RecordWriter, pair_model: Predictor, window_model: Predict
         oldest_needed = min((ids[0] for ids in wanted if ids[-1] > newest), default=newest)
         for model in {pair_model, window_model}:
             model.forget_before(min(newest, oldest_needed))
-        print(f"\rkeyframe {newest + 1} of {keyframes}", end="", file=sys.stderr, flush=True)
-    print(file=sys.stderr)
+        if sys.stderr.isatty():
+            print(f"\rkeyframe {newest + 1} of {keyframes}", end="", file=sys.stderr, flush=True)
+    if sys.stderr.isatty():
+        print(file=sys.stderr)
     return [reason for reason in faults if reason]
 
 

@@ -22,12 +22,12 @@ _CARDS = (
     ModelCard(
         name="vggt", module="vggt_model", package="vggt",
         install=_FACEBOOK_INSTALL.format("vggt"), weights="huggingface.co/facebook/VGGT-1B",
-        license="CC-BY-NC-4.0 (VGGT-1B); VGGT-1B-Commercial: VGGT License", products=False,
+        license="VGGT-1B: no commercial use; VGGT-1B-Commercial: VGGT License v1", products=False,
         size=(392, 518)),
     ModelCard(
         name="vggt-omega", module="vggt_omega_model", package="vggt_omega",
         install=_FACEBOOK_INSTALL.format("vggt-omega"),
-        weights="see github.com/facebookresearch/vggt-omega",
+        weights="huggingface.co/facebook/VGGT-Omega (on request)",
         license="FAIR Noncommercial Research License", products=False, multiple=16,
         size=(416, 624)),
     ModelCard(
@@ -38,17 +38,10 @@ _CARDS = (
     ModelCard(
         name="sta", module="sta_model", package="vista_slam",
         install="a checkout of github.com/zhangganlin/vista-slam and --package-path",
-        weights="see github.com/zhangganlin/vista-slam",
+        weights="huggingface.co/zhangganlin/vista_slam",
         license="Apache-2.0 with CC-BY-NC-SA-4.0 parts", products=False, kind="pair", multiple=16,
         size=(224, 224), mean=(0.5, 0.5, 0.5), std=(0.5, 0.5, 0.5), resize="crop",
         reference_view="none"),
-    ModelCard(
-        name="map-anything", module="map_anything_model", package="mapanything",
-        install=_FACEBOOK_INSTALL.format("map-anything") + ", pip install uniception==0.1.7",
-        weights="huggingface.co/facebook/map-anything-apache (or map-anything)",
-        license="Apache-2.0 (map-anything-apache) or CC-BY-NC-4.0 (map-anything)",
-        products=False, size=(392, 518), mean=IMAGENET_MEAN, std=IMAGENET_STD,
-        confidence="raw", scale="metric"),
     ModelCard(
         name="salad", module="salad_model", package="models.aggregators.salad",
         install="a checkout of github.com/serizba/salad and --package-path, "
