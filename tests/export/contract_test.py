@@ -10,6 +10,7 @@ from contract.card import check_size, metadata
 from contract.errors import BAD_USAGE, ExportError
 from contract.validate import fault
 from exporters.cards import CARDS, find_card
+from exporters.options import exporter_module
 
 EVERY_MODEL = {"contract", "kind", "model", "model_license", "height", "width", "multiple", "mean",
                "std", "resize", "pad_value", "exporter", "weights_sha256"}
@@ -50,6 +51,12 @@ class Metadata(unittest.TestCase):
     def test_an_unknown_model_is_refused_with_those_there_are(self):
         with self.assertRaisesRegex(ExportError, "da3-small"):
             find_card("da4")
+
+    def test_a_missing_package_says_what_to_install(self):
+        card = replace(find_card("pi3"), package="a_package_nobody_has")
+        with self.assertRaisesRegex(ExportError, "checkout of github.com/yyfz/Pi3") as caught:
+            exporter_module(card)
+        self.assertEqual(caught.exception.code, BAD_USAGE)
 
     def test_a_card_with_a_word_the_runtime_does_not_know_cannot_be_made(self):
         with self.assertRaises(ValueError):
