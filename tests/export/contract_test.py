@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import setting  # noqa: F401
 import numpy as np
-from contract.card import check_size, metadata
+from contract.card import card_of, check_size, metadata
 from contract.errors import BAD_USAGE, ExportError
 from contract.validate import fault
 from exporters.cards import CARDS, find_card
@@ -57,6 +57,20 @@ class Metadata(unittest.TestCase):
         with self.assertRaisesRegex(ExportError, "checkout of github.com/yyfz/Pi3") as caught:
             exporter_module(card)
         self.assertEqual(caught.exception.code, BAD_USAGE)
+
+    def test_a_file_says_of_its_input_what_the_card_said(self):
+        for card in CARDS.values():
+            keys = {key[len("unisim."):]: value
+                    for key, value in metadata(card, 224, 448, "0").items()}
+            found = card_of(keys, "x.onnx")
+            self.assertEqual(found.size, (224, 448))
+            for field in ("name", "kind", "mean", "std", "resize", "multiple", "confidence",
+                          "scale", "license", "outputs", "input"):
+                self.assertEqual(getattr(found, field), getattr(card, field), card.name)
+
+    def test_a_file_without_a_key_is_refused_by_name(self):
+        with self.assertRaisesRegex(ExportError, "x.onnx.*model_license"):
+            card_of({"model": "m", "mean": "0 0 0", "std": "1 1 1", "kind": "pair"}, "x.onnx")
 
     def test_a_card_with_a_word_the_runtime_does_not_know_cannot_be_made(self):
         with self.assertRaises(ValueError):

@@ -12,7 +12,6 @@ With two models, `--windows-by` names the second, which predicts the windows. Ex
 import argparse
 import sys
 import time
-from dataclasses import replace
 from pathlib import Path
 from typing import List, Optional, Tuple
 
@@ -20,7 +19,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import numpy as np  # noqa: E402
 
-from contract.card import ModelCard, check_size  # noqa: E402
+from contract.card import ModelCard, card_of, check_size  # noqa: E402
 from contract.errors import BAD_USAGE, ExportError, run  # noqa: E402
 from contract.poses import compose, inverse  # noqa: E402
 from exporters.cards import CARDS, find_card  # noqa: E402
@@ -59,9 +58,8 @@ def open_model(name: str, arguments: argparse.Namespace) -> Tuple[object, ModelC
     """Runner, card and input size (H, W) of an ONNX file or of a torch model."""
     if name.endswith(".onnx"):
         runner = OnnxRunner(Path(name), arguments.threads, arguments.provider)
-        keys = runner.metadata
-        card = replace(find_card(keys["model"]), license=keys["model_license"])
-        size = int(keys["height"]), int(keys["width"])
+        card = card_of(runner.metadata, name)
+        size = card.size
     else:
         card = find_card(name)
         size = parse_size(arguments.size, card.size)

@@ -2,9 +2,9 @@
 """What is said of a model in the metadata of its ONNX file (keys `unisim.*`)."""
 
 from dataclasses import dataclass
-from typing import Dict, Tuple
+from typing import Dict, Mapping, Tuple
 
-from contract.errors import BAD_USAGE, ExportError
+from contract.errors import BAD_INPUT, BAD_USAGE, ExportError
 
 CONTRACT_VERSION = "1"
 EXPORTER = "unisim_export 1"
@@ -94,3 +94,21 @@ def metadata(card: ModelCard, height: int, width: int, weights_sha256: str) -> D
             "pixel_center": card.pixel_center,
         })
     return {f"unisim.{key}": value for key, value in values.items()}
+
+
+def card_of(keys: Mapping[str, str], path: str) -> ModelCard:
+    """The card of a file with these keys (without `unisim.`), whoever exported it."""
+    try:
+        triples = {key: tuple(float(text) for text in keys[key].split()) for key in ("mean", "std")}
+        if any(len(values) != 3 for values in triples.values()):
+            raise ValueError("mean and std are three numbers each")
+        optional = {key: keys[key] for key in ("confidence", "scale", "reference_view",
+                                               "pixel_center") if key in keys}
+        return ModelCard(
+            name=keys["model"], module="", package="", install="", weights="",
+            license=keys["model_license"], products=False, kind=keys["kind"],
+            multiple=int(keys["multiple"]), size=(int(keys["height"]), int(keys["width"])),
+            resize=keys["resize"], **triples, **optional)
+    except (KeyError, ValueError) as error:
+        raise ExportError(f"{path}: metadata unisim.*: {error}; export the model anew",
+                          BAD_INPUT) from error

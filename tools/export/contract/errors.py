@@ -17,9 +17,13 @@ class ExportError(Exception):
 
 
 def run(program: str, main: Callable[[], int]) -> int:
-    """Runs `main`; an ExportError becomes one line on stderr and its exit code."""
+    """Runs `main`; what it cannot do becomes one line on stderr and an exit code."""
     try:
         return main()
     except ExportError as error:
         print(f"{program}: {error}", file=sys.stderr)
         return error.code
+    except ModuleNotFoundError as error:
+        print(f"{program}: Python package {error.name} is missing: pip install -r "
+              "requirements-export.txt", file=sys.stderr)
+        return BAD_USAGE

@@ -57,10 +57,14 @@ def export(model: torch.nn.Module, options: BuildOptions, patches: Iterable[Patc
     if card.kind == "multiview":
         shapes = ({1: torch.export.Dim("views", min=2, max=MAX_VIEWS)},)
     with torch.no_grad(), patched(patches), _quiet():
-        program = torch.onnx.export(
-            model, (example_input(options, views),), dynamo=True, opset_version=opset,
-            input_names=[card.input], output_names=list(card.outputs), dynamic_shapes=shapes,
-            optimize=True, verbose=False)
+        try:
+            program = torch.onnx.export(
+                model, (example_input(options, views),), dynamo=True, opset_version=opset,
+                input_names=[card.input], output_names=list(card.outputs), dynamic_shapes=shapes,
+                optimize=True, verbose=False)
+        except torch.onnx.OnnxExporterError as error:
+            raise ExportError(f"{card.name}: torch {torch.__version__} cannot export it: "
+                              f"{str(error).strip().splitlines()[0]}") from error
         program.model.metadata_props.update(metadata)
         size = sum(p.numel() * p.element_size() for p in model.parameters())
         program.save(str(out), external_data=size > EXTERNAL_BYTES)
