@@ -56,6 +56,10 @@ def build(options: BuildOptions) -> torch.nn.Module:
         model.dense_head.intermediate_layer_idx = list(range(_REDUCED_DEPTH))
     if weights.fill(model, options.weights, options.seed, ignored=_HEADS_NOT_EXPORTED):
         _unmask_biases(model)
+        with torch.no_grad():  # a small turn, a field of view of 1 rad
+            last = model.camera_head.camera_branch[2]
+            last.weight.mul_(0.2)
+            last.bias.copy_(torch.tensor([0.0, 0, 0, 0, 0, 0, 1, 1, 1]))
     return Wrapper(model)
 
 
