@@ -23,8 +23,9 @@ def relative_differences(found: Outputs, expected: Outputs) -> Dict[str, float]:
 
     Depth and confidence, which are positive, are compared point by point."""
     differences = {}
+    found = as_used(found)
     for name, reference in as_used(expected).items():
-        value = as_used(found)[name]
+        value = found[name]
         if value.shape != reference.shape or not np.isfinite(value).all():
             differences[name] = float("inf")
             continue
