@@ -123,7 +123,7 @@ def check_model(arguments: argparse.Namespace) -> int:
     for views in all_views:
         values = conversion.example_input(options, views).numpy()
         expected = torch.run(values)
-        if card.kind != "descriptor" and fault(expected):
+        if options.weights and card.kind != "descriptor" and fault(expected):
             raise ExportError(f"{card.name}: torch itself gives an unusable prediction: "
                               f"{fault(expected)}")
         differences = comparison.relative_differences(onnx.run(values), expected)

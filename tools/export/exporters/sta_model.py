@@ -58,6 +58,9 @@ def build(options: BuildOptions) -> torch.nn.Module:
             head = model.head_pose_s
             head.fc_rot.weight.mul_(0.2)
             head.fc_rot.bias.copy_(torch.eye(3).flatten())
+            points = model.downstream_head_pts.dpt.head[-1]  # x, y, z, confidence
+            points.weight.mul_(0.1)
+            points.bias.copy_(torch.tensor([0.0, 0.0, 1.0, 0.0]))
     return Wrapper(model)
 
 
