@@ -89,12 +89,11 @@ def crc32c(data, crc=0):
         states[0] = state
         for column in np.ascontiguousarray(block.T):
             states = (states >> np.uint32(8)) ^ _TABLE[(states ^ column) & np.uint32(0xFF)]
-        matrix = _advance_matrix(length)
-        merged = states[:1]
-        for lane in range(1, lanes):
-            merged = _apply(matrix, merged) ^ states[lane]
-        state = int(merged[0])
         data = data[lanes * length:]
+        while states.size > 1:  # neighbours become one lane of twice the length
+            states = _apply(_advance_matrix(length), states[0::2]) ^ states[1::2]
+            length *= 2
+        state = int(states[0])
     table = _TABLE.tolist()
     for byte in data.tolist():
         state = (state >> 8) ^ table[(state ^ byte) & 0xFF]

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: MIT
+"""The rejections of the runtime: what a prediction may not contain."""
+
+from typing import Dict, Optional
+
+import numpy as np
+
+
+def fault(outputs: Dict[str, np.ndarray]) -> Optional[str]:
+    """None for a usable prediction, else one line naming the output and what is wrong with it."""
+    for name, values in outputs.items():
+        if not np.isfinite(values).all():
+            return f"{name} has values that are not finite"
+    if (outputs["depth"] <= 0).all():
+        return "depth is nowhere above 0"
+    focals = outputs["intrinsics"][..., (0, 1), (0, 1)]
+    if (focals <= 0).any():
+        return f"focal length {focals.min():.3g} px is not above 0"
+    return None

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: MIT
+"""STA, the two-view model of ViSTA-SLAM: points of each view in its own camera, relative pose."""
+
+from typing import Any, List, Tuple
+
+import torch
+
+from contract.errors import BAD_USAGE, ExportError
+from exporters import attention_stub, rotary, weights
+from exporters.geometry import normalised_rows, pinhole_of_points
+from exporters.options import BuildOptions
+from exporters.patching import Patch
+
+attention_stub.install()
+from vista_slam.sta_model import pos_embed  # noqa: E402
+from vista_slam.sta_model.blocks import sta_blocks  # noqa: E402
+from vista_slam.sta_model.heads import pose_head  # noqa: E402
+from vista_slam.sta_model.sta_model import SymmetricTwoViewAssociation  # noqa: E402
+
+_REDUCED_ENCODER = 3
+
+
+class Wrapper(torch.nn.Module):
+    """Images in [-1, 1], exactly two. The pose token of a view gives its camera in the other's."""
+
+    def __init__(self, model: torch.nn.Module):
+        super().__init__()
+        self.model = model
+
+    def forward(self, images: torch.Tensor) -> Tuple[torch.Tensor, ...]:
+        model = self.model
+        height, width = images.shape[-2:]
+        features, positions = zip(*(model._encode_image(images[:, k], None, normalize=False)
+                                    for k in range(2)))
+        decoded = model._decode_stereo(*features, *positions)
+        heads = [model.downstream_head_pts(
+            [feature] + [tokens[:, 1:] for tokens in layers], (height, width))
+            for feature, layers in zip(features, decoded)]
+        turned = [model.head_pose_s(layers[-1][:, 0]) for layers in decoded]
+        points = torch.stack([head["pts3d"] for head in heads], dim=1)
+        confidence = torch.stack([head["conf"] for head in heads], dim=1)
+        T_0_1 = turned[1]["pose"][:, :3]
+        T_0_0 = torch.eye(4, dtype=T_0_1.dtype, device=T_0_1.device)[:3].expand_as(T_0_1)
+        pose = torch.stack((T_0_0, T_0_1), dim=1)
+        sure = torch.stack([found["conf"] for found in turned], dim=1)
+        return (points[..., 2], confidence, pose, pinhole_of_points(points, confidence), sure)
+
+
+def build(options: BuildOptions) -> torch.nn.Module:
+    if options.width < options.height:
+        raise ExportError(f"--size {options.height}x{options.width}: sta takes landscape or "
+                          "square images", BAD_USAGE)
+    model = SymmetricTwoViewAssociation(img_size=(options.height, options.width))
+    if options.reduced:
+        model.enc_blocks = model.enc_blocks[:_REDUCED_ENCODER]
+    if weights.fill(model, options.weights, options.seed):
+        with torch.no_grad():
+            head = model.head_pose_s
+            head.fc_rot.weight.mul_(0.2)
+            head.fc_rot.bias.copy_(torch.eye(3).flatten())
+            points = model.downstream_head_pts.dpt.head[-1]  # x, y, z, confidence
+            points.weight.mul_(0.1)
+            points.bias.copy_(torch.tensor([0.0, 0.0, 1.0, 0.0]))
+    return Wrapper(model)
+
+
+def _rows(self: Any, matrices: torch.Tensor) -> torch.Tensor:
+    del self
+    return normalised_rows(matrices)
+
+
+def patches() -> List[Patch]:
+    return [
+        *rotary.patches(pos_embed.RoPE2D, sta_blocks.PositionGetter, "base"),
+        (pose_head.PoseHead_small, "svd_orthogonalize", _rows),
+    ]

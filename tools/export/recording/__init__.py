@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""From a recorded sequence to a file of predictions."""
