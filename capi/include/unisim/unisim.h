@@ -219,7 +219,7 @@ typedef struct unisim_keyframe {
  *  @param[in]  keyframe timestamps must grow
  *  @param[out] id       0, 1, 2 ... in order of arrival
  *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT (NULL, time not after the last),
- *          UNISIM_ERR_CAPACITY */
+ *          UNISIM_ERR_CAPACITY (full batch only) */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_keyframe(unisim_session* session,
                                                               const unisim_keyframe* keyframe,
                                                               int32_t* id);
@@ -284,7 +284,7 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_submap(unisim_session* sess
  *  @param session live session
  *  @param[in] submap see unisim_submap
  *  @param[out] submap_id as for unisim_add_submap()
- *  @return as unisim_add_submap() */
+ *  @return as unisim_add_submap(); UNISIM_ERR_RETIRED when a keyframe is no longer kept */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_loop(unisim_session* session,
                                                           const unisim_submap* submap,
                                                           int32_t* submap_id);
@@ -308,7 +308,7 @@ typedef struct unisim_submap_update {
  *  @param session live session
  *  @param[in] update see unisim_submap_update
  *  @return UNISIM_OK (refused for its quality too), UNISIM_ERR_INVALID_ARGUMENT (also: unknown
- *          submap, other count) */
+ *          submap, other count), UNISIM_ERR_RETIRED when the submap is no longer kept */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_update_submap(unisim_session* session,
                                                                const unisim_submap_update* update);
 
@@ -429,7 +429,7 @@ typedef struct unisim_pose {
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_pose(const unisim_session* session,
                                                           int32_t keyframe_id, unisim_pose* pose);
 
-/** Latest poses of all keyframes that have one, ascending.
+/** Latest poses of all keyframes that are kept and have one, ascending.
  *  @param session live session
  *  @param[out] poses    caller's array; poses[0].struct_size set by the caller, it counts for all
  *  @param      capacity its length
@@ -448,7 +448,7 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_trajectory(const unisim_ses
  *  @param keyframe_id as unisim_add_keyframe() gave it
  *  @param[out] covariance 49 values, column-major
  *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_NOT_READY when the graph has
- *          changed since or the pose is held, UNISIM_ERR_NUMERICAL */
+ *          changed since or the pose is held, UNISIM_ERR_NUMERICAL, UNISIM_ERR_RETIRED */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_covariance(unisim_session* session,
                                                                 int32_t keyframe_id,
                                                                 double covariance[49]);
@@ -502,8 +502,9 @@ typedef struct unisim_loop_info {
 } unisim_loop_info;
 
 /** How a loop stands. A loop whose residual stays beyond unisim_config.loop_gate for five
- *  optimisations is suspended: it no longer pulls. It is tried again after ten optimisations, then
- *  after twice as many. The log says each with its reason, unisim_get_info() counts them.
+ *  optimisations is suspended: it no longer pulls. After ten optimisations, then twice as many, its
+ *  residual on the map as it is then decides whether it is back. The log says each with its reason,
+ *  unisim_get_info() counts them.
  *  @param session live session
  *  @param submap_id as unisim_add_loop() gave it
  *  @param[out] info filled on success
@@ -537,7 +538,7 @@ typedef struct unisim_submap_info {
  *  @param session live session
  *  @param submap_id as unisim_add_submap() gave it
  *  @param[out] info filled on success
- *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT */
+ *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_RETIRED (no longer kept) */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_submap(const unisim_session* session,
                                                             int32_t submap_id,
                                                             unisim_submap_info* info);
