@@ -21,9 +21,10 @@ Span<unsigned char> take_session(Arena& arena) {
 
 Session::Session(const SessionConfig& config, const SessionCapacity& capacity, Arena& arena)
     : config_(config),
-      keyframes_(part(arena, "keyframes"), config.max_keyframes),
-      windows_(part(arena, "windows"), config.window_size, config.window_overlap, capacity.windows),
-      submaps_(part(arena, "submaps"), capacity.submaps, capacity.views, capacity.shared),
+      keyframes_(part(arena, "keyframes"), capacity.keyframes),
+      windows_(part(arena, "windows"), config.window_size, config.window_overlap,
+               capacity.open_windows, config.window_submaps > 0),
+      submaps_(part(arena, "submaps"), capacity.submaps),
       tracking_(config.lost_after),
       depth_(part(arena, "depth"), capacity.depth, config.confidence_drop),
       graph_(part(arena, "graph"), capacity.graph),
@@ -32,9 +33,14 @@ Session::Session(const SessionConfig& config, const SessionCapacity& capacity, A
       before_(part(arena, "poses before").take<Sim3>(capacity.graph.nodes)),
       live_windows_(part(arena, "skeleton"), capacity.live_windows),
       live_loops_(arena, capacity.live_loops),
-      skeleton_(arena, capacity.skeleton),
-      condenser_(arena, capacity.condenser),
+      skeleton_(arena, capacity.skeleton > 0 ? capacity.skeleton + 1 : 0),
+      loop_edges_(arena, capacity.loop_edges),
+      merges_(arena.take<Retired>(capacity.merges)),
+      condenser_(part(arena, "condenser"), capacity.condenser),
       local_node_(arena.take<int32_t>(capacity.live_windows > 0 ? capacity.graph.nodes : 0)),
+      place_(arena.take<int32_t>(local_node_.size())),
+      live_nodes_capacity_(capacity.live_nodes),
+      skeleton_capacity_(capacity.skeleton),
       window_pair_capacity_(capacity.window_pairs) {}
 
 Arena Session::measure(const SessionConfig& config) {

@@ -11,6 +11,7 @@
 #include "core/map/depth_book.hpp"
 #include "core/map/gauge.hpp"
 #include "core/map/keyframe_ring.hpp"
+#include "core/map/loop_edge.hpp"
 #include "core/map/submap_table.hpp"
 #include "core/map/submap_window.hpp"
 #include "core/map/tracking_state.hpp"
@@ -82,8 +83,31 @@ struct OptimizeReport {
 
 /// A node of the skeleton.
 struct SkeletonNode {
-  int32_t submap = -1;  ///< window whose node it is
-  int32_t windows = 0;  ///< that hang on it, itself included
+  int32_t submap = -1;       ///< window whose node it is
+  int32_t windows = 0;       ///< that hang on it, itself included
+  int32_t first_owned = -1;  ///< keyframes that hang on it lie in first..last, -1: none
+  int32_t last_owned = -1;
+};
+
+/// What has left the window, as it is offered once.
+struct Retired {
+  int32_t keyframe = -1;  ///< -1: a submap that has become rigid
+  int64_t timestamp_ns = 0;
+  int32_t submap = -1;  ///< the keyframe's owner, or the submap that has become rigid
+  int32_t anchor = -1;  ///< of a submap: the one it hangs on from now on
+  Sim3 T;               ///< T_submap_kf or T_anchor_submap, scale included
+  int32_t confidence = 0;
+  int32_t segment = -1;
+};
+
+/// Numbers of UNISIM_LOOP_*.
+enum class LoopState : int32_t { kActive = 0, kSuspended = 1, kRigid = 2, kRemoved = 3 };
+
+/// How a loop stands.
+struct LoopStatus {
+  LoopState state = LoopState::kActive;
+  bool condensed = false;  ///< its keyframes have left the window
+  double norm = 0.0;       ///< whitened residual after the last optimisation
 };
 
 /// Counters.
@@ -100,6 +124,15 @@ struct SessionCounts {
   int32_t retired_keyframes = 0;
   int32_t retired_loops = 0;
   int32_t retired_windows = 0;
+  int32_t suspended_loops = 0;   ///< now
+  int32_t loop_suspensions = 0;  ///< so far
+  int32_t loop_returns = 0;      ///< suspended ones that agreed again
+  int32_t loops_removed = 0;     ///< by the host
+  int32_t loops_dropped = 0;     ///< given up to stay within memory
+  int32_t stretches = 0;         ///< of keyframes that no window came for
+  int32_t retired_unread = 0;    ///< gone before they were asked for
+  int32_t live_nodes = 0;        ///< keyframes in the graph
+  int32_t optimizations = 0;
 };
 
 /// A session in the caller's memory. Calls return kOk or leave the session as it was; a broken
@@ -127,6 +160,14 @@ class Session {
   Status reject_request(const Request& request);
   Status close_window();
 
+  // ---- loops (session/robust_loops.cpp)
+  Status remove_loop(int32_t id);
+  Status loop_status(int32_t id, LoopStatus* status) const;
+
+  // ---- streaming out (session/retired.cpp)
+  /// @return kOk; kNotReady when there is nothing new
+  Status next_retired(Retired* retired);
+
   // ---- optimisation (session/optimize.cpp)
   Status optimize(int32_t max_iterations, OptimizeReport* report);
   Status covariance(int32_t keyframe, Mat7* covariance);
@@ -141,7 +182,8 @@ class Session {
   SessionCounts counts() const { return counts_; }
   size_t arena_bytes() const { return memory_bytes_; }
   size_t arena_used_bytes() const { return used_bytes_; }
-  /// @return kOk; kInvalidArgument for an unknown id; kNotReady when it has no pose yet
+  /// @return kOk; kInvalidArgument for an unknown id; kRetired when it is no longer kept; kNotReady
+  ///         when it has no pose yet
   Status pose(int32_t keyframe, PoseOutput* pose) const;
   /// Latest pose; the keyframe is posed().
   Sim3 keyframe_pose(int32_t keyframe) const;
@@ -166,7 +208,6 @@ class Session {
   void join_segment(const Submap& submap, int32_t segment, int32_t into);
   void adopt_views(const SubmapInput& input, const Submap& submap);
   void move_retired(int32_t segment, const Sim3& correction);
-  int32_t segment_of(const Submap& submap) const;
   void add_view_edges(int32_t id);
   void attach_view(const Submap& submap, SubmapView* view);
   void add_shared_edges(int32_t id);
@@ -179,30 +220,72 @@ class Session {
   void update_shared(const SubmapUpdate& update);
   double median_log_c(int32_t m, int32_t n);
 
-  // session/retire.cpp, session/retire_loop.cpp, session/merge.cpp
+  // session/make_room.cpp
+  bool slides() const { return config_.window_submaps > 0; }
+  void make_keyframe_room();
+  void make_node_room();
+  bool close_stretch();
+  int32_t first_uncovered() const;
+  void make_submap_room(bool is_loop);
+  void forget_window();
+  void forget_loop();
+  void forget_part();
+
+  // session/retire.cpp
   void retire_surplus(int32_t newest);
-  void retire_window(int32_t m, int32_t n);
+  void retire_oldest();
+  void retire_last();
+  void retire_submap(int32_t m, int32_t n, int32_t end);
   bool condense_windows(const Submap& m, const Submap& n, ChainLink* link);
   bool load_between(const Submap& m, const Submap& n);
   void guess_link(const Submap& m, const Submap& n, ChainLink* link) const;
+  void add_link(int32_t a, int32_t b, const ChainLink& link);
   void drop_edges(int32_t id);
+  void count_window_pairs();
   void retire_keyframe(int32_t id, int32_t m, int32_t n);
+  void note_owned(Submap* carrier, int32_t keyframe);
   int32_t owner_of(int32_t id, int32_t m, int32_t n) const;
   void drop_windows_before(int32_t keyframe);
+
+  // session/retire_loop.cpp
   void retire_loops();
   bool all_retired(const Submap& submap) const;
-  void bound_skeleton();
-  int32_t cheapest_merge() const;
-  void merge_skeleton(int32_t place);
-  void move_chain_edges(int32_t a, int32_t b, const Sim3& T_a_b);
-  void replace_chain(int32_t id, int32_t a, int32_t b, const ChainLink& link);
-  void detach_loop_views(int32_t node);
-  void attach_loop_views();
-  void fuse_loop_edges(int32_t node);
+  void condense_early(int32_t id);
   void retire_loop(int32_t id);
   bool condense_loop(const Submap& loop, int32_t a, int32_t b, int32_t split, ChainLink* link);
   int32_t split_view(const Submap& loop) const;
+  int32_t node_under(int32_t keyframe) const;
   int32_t main_node(const Submap& loop, int32_t begin, int32_t end) const;
+
+  // session/merge.cpp
+  void bound_skeleton();
+  int32_t cheapest_merge() const;
+  void merge_skeleton(int32_t place);
+  void erase_skeleton(int32_t place);
+  void hang_submaps(int32_t a, int32_t b, const Sim3& T_a_b);
+  void move_chain_edges(int32_t a, int32_t b, const Sim3& T_a_b);
+  int32_t replace_chain(int32_t id, int32_t a, int32_t b, const ChainLink& link);
+  void detach_loop_views(int32_t node);
+  void attach_loop_views();
+
+  // session/loop_edges.cpp
+  void add_loop_edge(int32_t a, int32_t b, const ChainLink& link, Submap* loop);
+  int32_t fusible_edge(int32_t a, int32_t b, const ChainLink& link, int32_t but) const;
+  void fuse_loop_edge(int32_t place, const ChainLink& link);
+  void fuse_loop_edges(int32_t node);
+  void release_loop_edge(int32_t place, int32_t into);
+  void drop_loop_edge(int32_t place);
+  int32_t loop_edge_at(int32_t edge) const;
+  int32_t weakest_loop_edge();
+  bool untangle();
+
+  // session/robust_loops.cpp
+  void judge_loops();
+  void judge(LoopHealth* health, int32_t loop, double norm);
+  double loop_norm(const Submap& loop) const;
+  void suspend(LoopHealth* health, int32_t loop, bool suspended);
+  void suspend_edges(const Submap& loop, bool suspended);
+  void place_again(Submap* loop);
 
   Sim3 view_measurement(const SubmapView& view) const;
   Sim3 shared_measurement(const SharedKeyframe& shared) const;
@@ -234,9 +317,17 @@ class Session {
   FixedVector<int32_t> live_windows_;  // windows that still have their keyframes, oldest first
   FixedVector<int32_t> live_loops_;
   FixedVector<SkeletonNode> skeleton_;  // in time order
+  FixedVector<LoopEdge> loop_edges_;
+  Span<Retired> merges_;  // ring of those to offer
   Condenser condenser_;
   Span<int32_t> local_node_;  // node -> node of the condenser's graph, -1: not in it
+  Span<int32_t> place_;       // node -> place in time among skeleton and window
   int32_t live_from_ = 0;     // older keyframes have retired
+  int32_t offered_ = 0;       // older keyframes have been offered
+  int32_t merges_made_ = 0;
+  int32_t merges_offered_ = 0;
+  int32_t live_nodes_capacity_ = 0;
+  int32_t skeleton_capacity_ = 0;
 
   SessionCounts counts_;
   int32_t settled_ = 0;    // last keyframe whose pair with the one before is settled

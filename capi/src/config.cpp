@@ -56,7 +56,7 @@ bool numbers_in_range(const unisim_config& c) {
   return positive(c.huber_delta) && positive(c.loop_delta) &&
          within(c.live_scale_exponent, 0.0, 1.0) && within(c.confidence_drop, 0.0, 0.9) &&
          positive(c.sigma_reference) && positive(c.sigma_gate) && positive(c.sigma_gate_loop) &&
-         positive(c.scatter_gate);
+         positive(c.scatter_gate) && std::isfinite(c.loop_gate) && c.loop_gate >= 0.0;
 }
 
 /// Weights by the presets' order; 0 stands for the preset's. false: negative or not finite.
@@ -94,6 +94,9 @@ unisim_status read_config(const unisim_config* from, SessionConfig* to) {
   to->grid = {c.depth_grid_width, c.depth_grid_height};
   to->huber_delta = c.huber_delta;
   to->loop_delta = c.loop_delta;
+  // Beyond four widths the robust kernel has let go of a loop.
+  constexpr double kGateWidths = 4.0;
+  to->loop_gate = c.loop_gate > 0.0 ? c.loop_gate : kGateWidths * c.loop_delta;
   to->live_scale_exponent = c.live_scale_exponent;
   to->confidence_drop = c.confidence_drop;
   to->sigma_reference = c.sigma_reference;

@@ -56,6 +56,14 @@ struct FirstSize<unisim_submap_info> {
   static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_submap_info, scatter);
 };
 template <>
+struct FirstSize<unisim_retired> {
+  static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_retired, T);
+};
+template <>
+struct FirstSize<unisim_loop_info> {
+  static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_loop_info, residual);
+};
+template <>
 struct FirstSize<unisim_session_info> {
   static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_session_info, arena_peak_bytes);
 };

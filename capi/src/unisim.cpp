@@ -21,7 +21,8 @@ static_assert(UNISIM_ERR_INVALID_ARGUMENT == static_cast<int>(Status::kInvalidAr
                   UNISIM_ERR_NOT_READY == static_cast<int>(Status::kNotReady) &&
                   UNISIM_ERR_NUMERICAL == static_cast<int>(Status::kNumerical) &&
                   UNISIM_ERR_INTERNAL == static_cast<int>(Status::kInternal) &&
-                  UNISIM_ERR_ABI_MISMATCH == static_cast<int>(Status::kAbiMismatch),
+                  UNISIM_ERR_ABI_MISMATCH == static_cast<int>(Status::kAbiMismatch) &&
+                  UNISIM_ERR_RETIRED == static_cast<int>(Status::kRetired),
               "status numbers");
 static_assert(UNISIM_MAX_VIEWS == unisim::kMaxViews &&
                   UNISIM_REQUEST_PAIR == unisim::kRequestPair &&
@@ -88,6 +89,8 @@ const char* unisim_status_string(unisim_status status) {
       return "internal error";
     case UNISIM_ERR_ABI_MISMATCH:
       return "struct_size mismatch";
+    case UNISIM_ERR_RETIRED:
+      return "no longer kept";
     default:
       return "unknown status";
   }

@@ -64,13 +64,15 @@ unisim_status unisim_get_trajectory(const unisim_session* session, unisim_pose* 
   if (status != UNISIM_OK) return status;
   const Session& source = *core(session);
   size_t needed = 0;
-  for (int32_t id = 0; id < source.keyframes().size(); ++id) needed += source.has_pose(id) ? 1 : 0;
+  const int32_t first = source.keyframes().first();
+  const int32_t end = source.keyframes().size();
+  for (int32_t id = first; id < end; ++id) needed += source.has_pose(id) ? 1 : 0;
   *count = needed;
   if (needed > capacity) return UNISIM_ERR_CAPACITY;
   if (needed == 0) return UNISIM_OK;
   const size_t stride = unisim::struct_size_of(poses);
   auto* place = reinterpret_cast<unsigned char*>(poses);
-  for (int32_t id = 0; id < source.keyframes().size(); ++id) {
+  for (int32_t id = first; id < end; ++id) {
     PoseOutput latest;
     if (source.pose(id, &latest) != Status::kOk) continue;
     unisim::write_struct(to_c(id, latest), stride, place);
@@ -96,6 +98,7 @@ unisim_status unisim_get_submap(const unisim_session* session, int32_t submap_id
   if (status == UNISIM_OK) status = unisim::check_output(info);
   if (status != UNISIM_OK) return status;
   const Session& source = *core(session);
+  if (source.submaps().gone(submap_id)) return UNISIM_ERR_RETIRED;
   if (!source.submaps().has(submap_id)) return UNISIM_ERR_INVALID_ARGUMENT;
   const unisim::Submap& submap = source.submaps()[submap_id];
   unisim_submap_info s = {};
@@ -103,7 +106,7 @@ unisim_status unisim_get_submap(const unisim_session* session, int32_t submap_id
   s.is_loop = submap.is_loop ? 1 : 0;
   s.count = submap.count;
   for (int32_t k = 0; k < submap.count; ++k) {
-    s.keyframe_ids[k] = source.submaps().view(submap, k).keyframe;
+    s.keyframe_ids[k] = source.submaps().keyframe(submap, k);
   }
   s.T_world_submap = unisim::write_pose(source.submap_pose(submap));
   s.center_sigma = submap.center_sigma;
@@ -133,6 +136,15 @@ unisim_status unisim_get_info(const unisim_session* session, unisim_session_info
   i.map_revision = counts.map_revision;
   i.arena_bytes = source.arena_bytes();
   i.arena_peak_bytes = source.arena_used_bytes();
+  i.first_keyframe = source.keyframes().first();
+  i.retired_keyframes = counts.retired_keyframes;
+  i.retired_unread = counts.retired_unread;
+  i.stretches = counts.stretches;
+  i.suspended_loops = counts.suspended_loops;
+  i.loop_suspensions = counts.loop_suspensions;
+  i.loop_returns = counts.loop_returns;
+  i.loops_removed = counts.loops_removed;
+  i.loops_dropped = counts.loops_dropped;
   unisim::write_struct(i, unisim::struct_size_of(info), info);
   return UNISIM_OK;
 }

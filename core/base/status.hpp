@@ -17,6 +17,7 @@ enum class [[nodiscard]] Status : int32_t {
   kNumerical = 5,        ///< no descent or not positive definite
   kInternal = 6,         ///< broken invariant
   kAbiMismatch = 7,      ///< struct_size unknown (capi only)
+  kRetired = 8,          ///< it was there, and has made room for newer ones
 };
 
 constexpr bool is_ok(Status status) { return status == Status::kOk; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Coarse depth of every keyframe, so that a loop finds its scale at a place left long ago.
+// Coarse depth of the keyframes that are kept, so that a loop finds its scale at a place left long
+// ago.
 #include "core/map/depth_archive.hpp"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ constexpr double kStep = 2.0 * kLogRange / (kLastCode - 1.0);
 }  // namespace
 
 void DepthArchive::put(int32_t keyframe, Span<const float> depth) {
-  const Span<uint16_t> codes = codes_.subspan(keyframe * kGrid.cells(), kGrid.cells());
+  const Span<uint16_t> codes = place(keyframe);
   for (int32_t cell = 0; cell < codes.size(); ++cell) {
     if (depth[cell] <= 0.0F) {
       codes[cell] = 0;
@@ -29,7 +30,7 @@ void DepthArchive::put(int32_t keyframe, Span<const float> depth) {
 }
 
 void DepthArchive::get(int32_t keyframe, Span<float> depth) const {
-  const Span<const uint16_t> codes = codes_.subspan(keyframe * kGrid.cells(), kGrid.cells());
+  const Span<const uint16_t> codes = place(keyframe);
   for (int32_t cell = 0; cell < codes.size(); ++cell) {
     const double log_depth = (codes[cell] - 1) * kStep - kLogRange;
     depth[cell] = codes[cell] == 0 ? 0.0F : static_cast<float>(math::exp(log_depth));

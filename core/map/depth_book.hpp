@@ -13,7 +13,7 @@ namespace unisim {
 
 /// Sizes of a DepthBook.
 struct DepthBookSize {
-  int32_t keyframes = 0;       ///< coarse depth is kept of all of them
+  int32_t keyframes = 0;       ///< newest ones whose coarse depth is kept
   int32_t two_view_slots = 0;  ///< newest keyframes whose two-view depth is kept on the grid
   int32_t submap_slots = 0;    ///< submap views whose depth is kept on the grid
   GridSize grid;
@@ -42,6 +42,8 @@ class DepthBook {
   /// Which submap view over_submap() would compare with.
   DepthStore::Source submap_source(int32_t keyframe) const { return submaps_.source_of(keyframe); }
 
+  /// A keyframe has arrived: what was archived in its place is another's.
+  void begin_keyframe(int32_t keyframe) { archive_.clear(keyframe); }
   /// The map is the keyframe's two-view depth from now on.
   void keep_two_view(int32_t keyframe);
   /// The map is the depth of a submap's view.

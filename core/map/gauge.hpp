@@ -18,6 +18,8 @@ class Gauge {
 
   /// Fix and release nodes as needed; nothing to do while the structure is that of the last call.
   Status apply(Graph* graph);
+  /// Edges were suspended or came back: look again.
+  void edges_changed() { structure_revision_ = 0; }
 
  private:
   int32_t root_of(int32_t node);

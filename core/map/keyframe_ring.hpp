@@ -2,9 +2,11 @@
 // The keyframes of a session, in order of arrival.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
-#include "core/base/fixed_vector.hpp"
+#include "core/base/arena.hpp"
+#include "core/base/span.hpp"
 #include "core/lie/sim3.hpp"
 #include "core/map/tracking_state.hpp"
 
@@ -27,36 +29,59 @@ struct Keyframe {
 
   bool retired() const { return owner >= 0; }
   bool posed() const { return node >= 0 || retired(); }
+  /// 0 held or unknown, 1 pair only, 2 in a submap, 3 in two or a closed loop.
+  int32_t confidence() const {
+    if (!posed()) return 0;
+    if (loop_count > 0 || window_count > 1) return 3;
+    return window_count == 1 ? 2 : 1;
+  }
 };
 
-/// Keyframe by id. The full batch keeps all of them, so an id is an index; when old keyframes
-/// retire into the skeleton an id becomes a position in a ring and only this class has to know.
+/// Keyframe by id; ids grow for ever, the newest `capacity` keyframes are kept.
 class KeyframeRing {
  public:
   KeyframeRing() = default;
-  KeyframeRing(Arena& arena, int32_t capacity) : keyframes_(arena, capacity) {}
+  KeyframeRing(Arena& arena, int32_t capacity) : keyframes_(arena.take<Keyframe>(capacity)) {}
 
-  bool full() const { return keyframes_.full(); }
-  int32_t size() const { return keyframes_.size(); }
-  bool has(int32_t id) const { return id >= 0 && id < size(); }
-  Keyframe& operator[](int32_t id) { return keyframes_[id]; }
-  const Keyframe& operator[](int32_t id) const { return keyframes_[id]; }
+  /// Would one more take the place of the oldest?
+  bool full() const { return size_ - first_ == keyframes_.size(); }
+  int32_t capacity() const { return keyframes_.size(); }
+  /// Keyframes there have been: the next id.
+  int32_t size() const { return size_; }
+  /// Oldest that is kept.
+  int32_t first() const { return first_; }
+  bool has(int32_t id) const { return id >= first_ && id < size_; }
+  bool gone(int32_t id) const { return id >= 0 && id < first_; }
+  Keyframe& operator[](int32_t id) { return keyframes_[place(id)]; }
+  const Keyframe& operator[](int32_t id) const { return keyframes_[place(id)]; }
 
-  /// Caller has checked full(). @return its id
+  /// When full() the oldest goes. @return its id
   int32_t append(int64_t timestamp_ns) {
+    if (full()) ++first_;
     Keyframe keyframe;
     keyframe.timestamp_ns = timestamp_ns;
-    static_cast<void>(keyframes_.push_back(keyframe));
-    return size() - 1;
+    keyframes_[size_ % keyframes_.size()] = keyframe;
+    return size_++;
   }
+  /// Let go of all keyframes before `id`.
+  void forget_before(int32_t id) { first_ = std::max(first_, std::min(id, size_)); }
 
   /// Keyframe that has the pose of `id`: itself, the one it is held from, or -1.
   int32_t pose_source(int32_t id) const {
-    return keyframes_[id].posed() ? id : keyframes_[id].held_from;
+    const Keyframe& keyframe = (*this)[id];
+    if (keyframe.posed()) return id;
+    return has(keyframe.held_from) ? keyframe.held_from : -1;
   }
 
  private:
-  FixedVector<Keyframe> keyframes_;
+  int32_t place(int32_t id) const {
+    UNISIM_CHECK(has(id));
+    return id % keyframes_.size();
+  }
+
+  Span<Keyframe> keyframes_;
+  int32_t size_ = 0;
+  int32_t first_ = 0;
 };
 
 }  // namespace unisim

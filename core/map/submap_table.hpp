@@ -25,22 +25,39 @@ struct SubmapView {
   bool used = false;      ///< takes part in the graph
 };
 
+/// Whether a loop agrees with the map; kept while it pulls and while it is suspended.
+struct LoopHealth {
+  double norm = 0.0;       ///< whitened residual after the last optimisation
+  int32_t strikes = 0;     ///< optimisations in a row that left it beyond the gate
+  int32_t retry_at = 0;    ///< suspended: optimisation that tries it again
+  int32_t wait = 0;        ///< suspended: optimisations between tries, doubled each time
+  bool suspended = false;  ///< its edges contribute nothing
+};
+
 /// A window's or a loop's prediction in the graph.
 struct Submap {
+  int32_t id = -1;         ///< -1: free slot
   int32_t node = -1;       ///< graph node; or that of the submap it hangs on
   Sim3 T_node_submap;      ///< pose under that node; identity where the node is the submap's own
-  int32_t first_view = 0;  ///< in the table's view pool
+  int32_t first_view = 0;  ///< in the table's view pool; -1: given back, its keyframe ids stay
+  int32_t first_id = 0;    ///< in the table's pool of keyframe ids
   int32_t count = 0;       ///< views, the unused ones included
   int32_t origin = 0;      ///< view at the submap's origin
+  int32_t origin_keyframe = -1;
+  int32_t segment = -1;  ///< of its origin
   bool is_loop = false;
   bool own_node = true;      ///< false: hangs on the node of another submap by T_node_submap
   bool retired = false;      ///< part of the skeleton: no edges of its own
-  int32_t window_first = 0;  ///< of a window: first keyframe asked for
+  bool removed = false;      ///< a loop the host took back, or that gave way at capacity
+  int32_t window_first = 0;  ///< of a window: keyframes asked for
+  int32_t window_last = 0;
   int32_t first_owned = -1;  ///< retired keyframes that hang on it lie in first..last, -1: none
   int32_t last_owned = -1;
+  int32_t loop_edge = -1;     ///< of a retired loop: its place among the loop edges, -1: none
   double center_sigma = 0.0;  ///< as handed in, 0: not known
   double scatter = 0.0;       ///< median over measured views
   double multiplier = 1.0;    ///< of its edges
+  LoopHealth health;          ///< of a live loop
 };
 
 /// A keyframe that submaps m and n both see: one tie edge, and one scale edge per pair (m, n).
@@ -54,49 +71,75 @@ struct SharedKeyframe {
   int32_t scale = -1;
 };
 
-/// Submaps by id (order of arrival), views in one pool, shared keyframes in one list.
-/// Submap::node is the only link to the graph: freeing nodes of retired submaps leaves ids alone.
+/// Sizes of a SubmapTable.
+struct SubmapTableSize {
+  int32_t windows = 0;  ///< submaps of windows that are kept
+  int32_t loops = 0;    ///< loop submaps that are kept
+  int32_t live = 0;     ///< submaps that have views
+  int32_t views = 0;    ///< of one submap
+  int32_t shared = 0;
+};
+
+/// Submaps by id (order of arrival) with their views, and the keyframes they share. Ids grow for
+/// ever; submaps that are no longer needed are erased to make room.
 class SubmapTable {
  public:
   SubmapTable() = default;
-  SubmapTable(Arena& arena, int32_t submaps, int32_t views, int32_t shared)
-      : submaps_(arena, submaps), views_(arena, views), shared_(arena, shared) {}
+  SubmapTable(Arena& arena, const SubmapTableSize& size);
 
-  int32_t size() const { return submaps_.size(); }
-  bool has(int32_t id) const { return id >= 0 && id < size(); }
-  Submap& operator[](int32_t id) { return submaps_[id]; }
-  const Submap& operator[](int32_t id) const { return submaps_[id]; }
+  /// Submaps that are kept, in order of arrival; `position` is below this.
+  int32_t size() const { return order_.size(); }
+  Submap& at(int32_t position) { return slots_[order_[position]]; }
+  const Submap& at(int32_t position) const { return slots_[order_[position]]; }
 
+  bool has(int32_t id) const { return slot_of(id) >= 0; }
+  /// Was there, and has been erased.
+  bool gone(int32_t id) const { return id >= 0 && id < next_id_ && !has(id); }
+  Submap& operator[](int32_t id) { return slots_[slot_of(id)]; }
+  const Submap& operator[](int32_t id) const { return slots_[slot_of(id)]; }
+
+  /// Views of a submap that has not given them back.
   SubmapView& view(const Submap& submap, int32_t k) { return views_[submap.first_view + k]; }
   const SubmapView& view(const Submap& submap, int32_t k) const {
     return views_[submap.first_view + k];
   }
-  Span<SharedKeyframe> shared() { return shared_.span(); }
-  [[nodiscard]] bool add_shared(const SharedKeyframe& shared) { return shared_.push_back(shared); }
+  int32_t keyframe(const Submap& submap, int32_t k) const { return ids_[submap.first_id + k]; }
+  void set_keyframe(const Submap& submap, int32_t k, int32_t id) {
+    ids_[submap.first_id + k] = id;
+    views_[submap.first_view + k].keyframe = id;
+  }
 
-  bool has_room(int32_t views) const {
-    return !submaps_.full() && views_.size() + views <= views_.capacity();
+  Span<SharedKeyframe> shared() { return shared_.span(); }
+  Span<const SharedKeyframe> shared() const { return shared_.span(); }
+  [[nodiscard]] bool add_shared(const SharedKeyframe& shared) { return shared_.push_back(shared); }
+  /// Forget what a submap shares.
+  void drop_shared(int32_t id);
+
+  bool has_room(bool is_loop) const {
+    return (is_loop ? loops_ < size_.loops : windows_ < size_.windows) && !free_views_.empty();
   }
   /// Append a submap with `views` fresh views; caller has checked has_room(). @return its id
-  int32_t append(int32_t views) {
-    Submap submap;
-    submap.first_view = views_.size();
-    submap.count = views;
-    views_.resize(views_.size() + views);
-    for (int32_t k = 0; k < views; ++k) views_[submap.first_view + k] = SubmapView();
-    static_cast<void>(submaps_.push_back(submap));
-    return size() - 1;
-  }
-  /// Take back the submap appended last, which has no shared keyframes yet.
-  void remove_last() {
-    views_.resize(submaps_.back().first_view);
-    submaps_.pop_back();
-  }
+  int32_t append(bool is_loop, int32_t views);
+  /// Take back the submap appended last, which has no shared keyframes yet; its id is used again.
+  void remove_last();
+  /// Give its views back.
+  void release_views(Submap* submap);
+  void erase(int32_t id);
 
  private:
-  FixedVector<Submap> submaps_;
-  FixedVector<SubmapView> views_;
+  int32_t slot_of(int32_t id) const;
+
+  SubmapTableSize size_;
+  Span<Submap> slots_;
+  FixedVector<int32_t> order_;  // slots by id
+  FixedVector<int32_t> free_slots_;
+  Span<int32_t> ids_;  // keyframes, size_.views for each slot
+  Span<SubmapView> views_;
+  FixedVector<int32_t> free_views_;  // first views of what is free
   FixedVector<SharedKeyframe> shared_;
+  int32_t next_id_ = 0;
+  int32_t windows_ = 0;
+  int32_t loops_ = 0;
 };
 
 }  // namespace unisim

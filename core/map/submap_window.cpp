@@ -6,23 +6,27 @@
 
 namespace unisim {
 
-bool WindowSchedule::append(const Window& window) {
+bool WindowSchedule::append(const Window& window, Window* skipped) {
   covered_ = window.first + window.count;
   next_first_ = std::max(covered_ - overlap_, 0);
-  if (cut_ == open_.capacity()) return false;
-  ++cut_;
-  return open_.push_back(window);
+  const bool room = endless_ ? !open_.full() : cut_ < open_.capacity();
+  if (!room) *skipped = endless_ ? open_[0] : window;
+  if (!room && !endless_) return false;
+  if (!room) remove(0);
+  if (!endless_) ++cut_;
+  return open_.push_back(window) && room;
 }
 
-bool WindowSchedule::keyframe_added(int32_t keyframes) {
+bool WindowSchedule::keyframe_added(int32_t keyframes, Window* skipped) {
   if (keyframes < next_first_ + size_) return true;
-  return append({next_first_, size_});
+  return append({next_first_, size_}, skipped);
 }
 
 bool WindowSchedule::close(int32_t keyframes) {
   constexpr int32_t kFewestNew = 2;
   if (keyframes - covered_ < kFewestNew) return false;
-  return append({next_first_, keyframes - next_first_});
+  Window skipped;
+  return append({next_first_, keyframes - next_first_}, &skipped) || endless_;
 }
 
 const Window* WindowSchedule::oldest(int32_t settled) const {

@@ -21,12 +21,13 @@ struct Window {
 class WindowSchedule {
  public:
   WindowSchedule() = default;
-  WindowSchedule(Arena& arena, int32_t size, int32_t overlap, int32_t max_windows)
-      : open_(arena, max_windows), size_(size), overlap_(overlap) {}
+  /// @param max_windows cut in all; with `endless` open at a time, the oldest of them gives way
+  WindowSchedule(Arena& arena, int32_t size, int32_t overlap, int32_t max_windows, bool endless)
+      : open_(arena, max_windows), size_(size), overlap_(overlap), endless_(endless) {}
 
-  /// A keyframe has arrived; `keyframes` are there now. false: it completed a window for which
-  /// there is no room, which is skipped.
-  bool keyframe_added(int32_t keyframes);
+  /// A keyframe has arrived; `keyframes` are there now. false: it completed a window and there is
+  /// no room; `skipped` will not be asked for.
+  bool keyframe_added(int32_t keyframes, Window* skipped);
 
   /// Cut a shorter window from the keyframes no window covers. false: fewer than two are left over.
   bool close(int32_t keyframes);
@@ -42,11 +43,12 @@ class WindowSchedule {
   void remove(int32_t index);
 
  private:
-  bool append(const Window& window);
+  bool append(const Window& window, Window* skipped);
 
   FixedVector<Window> open_;
   int32_t size_ = 0;
   int32_t overlap_ = 0;
+  bool endless_ = false;
   int32_t next_first_ = 0;  ///< first keyframe of the next full window
   int32_t covered_ = 0;     ///< keyframes before this one lie in a window
   int32_t cut_ = 0;         ///< windows cut so far

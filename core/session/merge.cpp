@@ -18,11 +18,13 @@ bool joins(const Edge& edge, int32_t a, int32_t b) {
 }  // namespace
 
 void Session::bound_skeleton() {
-  if (config_.skeleton_capacity == 0) return;
-  while (!broken_ && skeleton_.size() > config_.skeleton_capacity) {
+  while (!broken_ && skeleton_.size() > skeleton_capacity_) {
     const int32_t place = cheapest_merge();
-    if (place < 0) return;
-    merge_skeleton(place);
+    if (place < 0) {
+      forget_part();
+    } else {
+      merge_skeleton(place);
+    }
   }
 }
 
@@ -32,8 +34,8 @@ int32_t Session::cheapest_merge() const {
   int32_t best = -1;
   const auto windows = [&](int32_t k) { return skeleton_[k].windows + skeleton_[k + 1].windows; };
   for (int32_t k = 0; k + 1 < skeleton_.size() - kFresh; ++k) {
-    const int32_t segment = segment_of(submaps_[skeleton_[k].submap]);
-    if (segment_of(submaps_[skeleton_[k + 1].submap]) != segment) continue;
+    const int32_t segment = submaps_[skeleton_[k].submap].segment;
+    if (submaps_[skeleton_[k + 1].submap].segment != segment) continue;
     if (best < 0 || windows(k) < windows(best)) best = k;
   }
   return best;
@@ -46,19 +48,39 @@ void Session::merge_skeleton(int32_t place) {
   const Sim3 T_a_b = between(graph_.pose(a), graph_.pose(b));
   move_chain_edges(a, b, T_a_b);
   detach_loop_views(b);
-  for (int32_t id = 0; id < submaps_.size(); ++id) {
-    Submap& submap = submaps_[id];
+  hang_submaps(a, b, T_a_b);
+  if (!holds(graph_.remove_node(b))) return;
+  attach_loop_views();
+  fuse_loop_edges(a);
+
+  SkeletonNode& first = skeleton_[place];
+  const SkeletonNode& second = skeleton_[place + 1];
+  Retired merge;
+  merge.submap = second.submap;
+  merge.anchor = first.submap;
+  merge.T = T_a_b;
+  merge.segment = submaps_[first.submap].segment;
+  merges_[merges_made_++ % merges_.size()] = merge;
+  first.windows += second.windows;
+  if (first.first_owned < 0) first.first_owned = second.first_owned;
+  first.last_owned = std::max(first.last_owned, second.last_owned);
+  erase_skeleton(place + 1);
+}
+
+void Session::erase_skeleton(int32_t place) {
+  for (int32_t k = place; k + 1 < skeleton_.size(); ++k) skeleton_[k] = skeleton_[k + 1];
+  skeleton_.pop_back();
+}
+
+/// What hung on node b hangs on a.
+void Session::hang_submaps(int32_t a, int32_t b, const Sim3& T_a_b) {
+  for (int32_t k = 0; k < submaps_.size(); ++k) {
+    Submap& submap = submaps_.at(k);
     if (submap.node != b) continue;
     submap.node = a;
     submap.T_node_submap = T_a_b * submap.T_node_submap;
     submap.own_node = false;
   }
-  if (!holds(graph_.remove_node(b))) return;
-  attach_loop_views();
-  fuse_loop_edges(a);
-  skeleton_[place].windows += skeleton_[place + 1].windows;
-  for (int32_t k = place + 1; k + 1 < skeleton_.size(); ++k) skeleton_[k] = skeleton_[k + 1];
-  skeleton_.pop_back();
 }
 
 /// Edges of b go on from a, less sure by what the removed link was unsure.
@@ -78,72 +100,57 @@ void Session::move_chain_edges(int32_t a, int32_t b, const Sim3& T_a_b) {
     if (!graph_.has_edge(id)) continue;
     const Edge edge = graph_.edge(id);
     if (edge.kind != FactorKind::kChain || (edge.a != b && edge.b != b)) continue;
-    if (joins(edge, a, b)) continue;
+    const int32_t place = loop_edge_at(id);
+    if (joins(edge, a, b)) {
+      if (place >= 0) release_loop_edge(place, -1);
+      continue;
+    }
     const ChainLink link = graph_.link(edge);
     const bool first = edge.a == b;
     ChainLink moved =
         first ? move_first_end(link, T_a_b, covariance) : move_second_end(link, T_a_b, covariance);
     // Informations at the end of the range of numbers do not survive two inversions.
     if (!valid_link(moved)) moved.Lambda = link.Lambda;
-    replace_chain(id, first ? a : edge.a, first ? edge.b : a, moved);
+    const int32_t made = replace_chain(id, first ? a : edge.a, first ? edge.b : a, moved);
+    if (place >= 0) loop_edges_[place].edge = made;
   }
 }
 
-void Session::replace_chain(int32_t id, int32_t a, int32_t b, const ChainLink& link) {
+/// @return the edge that took its place
+int32_t Session::replace_chain(int32_t id, int32_t a, int32_t b, const ChainLink& link) {
   const Edge edge = graph_.edge(id);
   const EdgeWeight weight = {edge.information, edge.multiplier, edge.kernel};
   int32_t made = -1;
   holds(graph_.remove_edge(id));
-  holds(graph_.add_chain(a, b, link, weight, &made));
+  if (!holds(graph_.add_chain(a, b, link, weight, &made))) return id;
+  holds(graph_.set_suspended(made, edge.suspended));
+  return made;
 }
 
 void Session::detach_loop_views(int32_t node) {
+  const auto drop = [&](int32_t* id) {
+    if (*id < 0 || graph_.edge(*id).b != node) return;
+    holds(graph_.remove_edge(*id));
+    *id = -1;
+  };
   for (const int32_t loop : live_loops_) {
     const Submap& submap = submaps_[loop];
     for (int32_t k = 0; k < submap.count; ++k) {
-      SubmapView& view = submaps_.view(submap, k);
-      const Keyframe& keyframe = keyframes_[view.keyframe];
-      if (!view.used || !keyframe.retired() || submaps_[keyframe.owner].node != node) continue;
-      if (view.bridge >= 0) holds(graph_.remove_edge(view.bridge));
-      if (view.anchor >= 0) holds(graph_.remove_edge(view.anchor));
-      view.bridge = -1;
-      view.anchor = -1;
+      drop(&submaps_.view(submap, k).bridge);
+      drop(&submaps_.view(submap, k).anchor);
     }
   }
 }
 
+/// A view whose keyframe is no longer kept cannot be held any more.
 void Session::attach_loop_views() {
   for (const int32_t loop : live_loops_) {
     const Submap& submap = submaps_[loop];
     for (int32_t k = 0; k < submap.count; ++k) {
       SubmapView& view = submaps_.view(submap, k);
-      if (view.used && view.bridge < 0 && view.anchor < 0) attach_view(submap, &view);
-    }
-  }
-}
-
-/// Loops between the same two nodes that agree become one; those that do not stay rivals.
-void Session::fuse_loop_edges(int32_t node) {
-  const auto is_loop_edge = [&](int32_t id) {
-    if (!graph_.has_edge(id)) return false;
-    const Edge& edge = graph_.edge(id);
-    return edge.kind == FactorKind::kChain && (edge.a == node || edge.b == node) &&
-           edge.kernel.kind == RobustKernelKind::kGemanMcClure;
-  };
-  constexpr double kLargestDisagreement = 1.0;
-  for (int32_t one = 0; one < graph_.edge_end(); ++one) {
-    if (!is_loop_edge(one)) continue;
-    for (int32_t other = one + 1; other < graph_.edge_end(); ++other) {
-      if (!is_loop_edge(other)) continue;
-      const Edge edge = graph_.edge(one);
-      if (graph_.edge(other).a != edge.a || graph_.edge(other).b != edge.b) continue;
-      const ChainLink first = graph_.link(edge);
-      const ChainLink second = graph_.link(graph_.edge(other));
-      if (disagreement_squared(first, second) > kLargestDisagreement) continue;
-      const ChainLink fused = fuse(first, second);
-      if (!valid_link(fused)) continue;
-      holds(graph_.remove_edge(other));
-      replace_chain(one, edge.a, edge.b, fused);
+      if (!view.used || view.bridge >= 0 || view.anchor >= 0) continue;
+      view.used = keyframes_.has(view.keyframe);
+      if (view.used) attach_view(submap, &view);
     }
   }
 }

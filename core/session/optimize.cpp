@@ -38,16 +38,21 @@ int32_t degrees_of_freedom(const Graph& graph) {
 Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
   *report = OptimizeReport();
   for (int32_t node = 0; node < graph_.node_end(); ++node) before_[node] = graph_.pose(node);
-  if (!holds(gauge_.apply(&graph_))) return Status::kInternal;
   LmOptions options;
   options.max_iterations = max_iterations > 0 ? max_iterations : config_.max_iterations;
-  const Status status = solver_.optimize(&graph_, options, &report->lm);
-  report->keyframes = counts_.posed_keyframes - counts_.retired_keyframes;
-  const int32_t merged = counts_.retired_windows - skeleton_.size();
-  report->submaps = counts_.windows + counts_.loops - counts_.retired_loops - merged;
+  Status status = Status::kOk;
+  do {
+    if (!holds(gauge_.apply(&graph_))) return Status::kInternal;
+    status = solver_.optimize(&graph_, options, &report->lm);
+  } while (status == Status::kCapacity && untangle());
+  report->keyframes = counts_.live_nodes;
+  report->submaps = graph_.node_count() - counts_.live_nodes;
   describe_bad_node(report);
   if (status == Status::kNotReady || status == Status::kCapacity) return status;
+  ++counts_.optimizations;
   describe_changes(report);
+  judge_loops();
+  if (!holds(gauge_.apply(&graph_))) return Status::kInternal;
   const int32_t freedom = degrees_of_freedom(graph_);
   variance_factor_ = freedom > 0 ? 2.0 * report->lm.final_cost / freedom : 1.0;
   solved_revision_ = graph_.revision();
@@ -55,11 +60,17 @@ Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
 }
 
 void Session::describe_changes(OptimizeReport* report) {
-  for (int32_t id = 0; id < submaps_.size(); ++id) {
-    const Submap& submap = submaps_[id];
-    if (submap.first_owned >= 0 && moved(before_[submap.node], graph_.pose(submap.node))) {
-      note_changed(submap.first_owned, submap.last_owned, report);
-    }
+  const auto describe = [&](int32_t submap, int32_t first_owned, int32_t last_owned) {
+    const int32_t node = submaps_[submap].node;
+    const int32_t first = std::max(first_owned, keyframes_.first());
+    if (last_owned < first || !moved(before_[node], graph_.pose(node))) return;
+    note_changed(first, last_owned, report);
+  };
+  for (const SkeletonNode& node : skeleton_) {
+    describe(node.submap, node.first_owned, node.last_owned);
+  }
+  for (const int32_t id : live_windows_) {
+    describe(id, submaps_[id].first_owned, submaps_[id].last_owned);
   }
   int32_t newest = -1;
   for (int32_t id = live_from_; id < keyframes_.size(); ++id) {
@@ -81,15 +92,17 @@ void Session::describe_changes(OptimizeReport* report) {
 
 void Session::describe_bad_node(OptimizeReport* report) const {
   if (report->lm.bad_node < 0) return;
-  for (int32_t id = 0; id < keyframes_.size(); ++id) {
+  for (int32_t id = live_from_; id < keyframes_.size(); ++id) {
     if (keyframes_[id].node == report->lm.bad_node) report->bad_keyframe = id;
   }
-  for (int32_t id = 0; id < submaps_.size(); ++id) {
-    if (submaps_[id].own_node && submaps_[id].node == report->lm.bad_node) report->bad_submap = id;
+  for (int32_t k = 0; k < submaps_.size(); ++k) {
+    const Submap& submap = submaps_.at(k);
+    if (submap.own_node && submap.node == report->lm.bad_node) report->bad_submap = submap.id;
   }
 }
 
 Status Session::covariance(int32_t keyframe, Mat7* covariance) {
+  if (keyframes_.gone(keyframe)) return Status::kRetired;
   if (!keyframes_.has(keyframe)) return Status::kInvalidArgument;
   const Keyframe& asked = keyframes_[keyframe];
   const int32_t node = asked.retired() ? submaps_[asked.owner].node : asked.node;

@@ -31,17 +31,27 @@ EdgeWeight Session::edge_weight(FactorKind kind, double multiplier, bool is_loop
 }
 
 Status Session::add_keyframe(int64_t timestamp_ns, int32_t* id) {
-  if (keyframes_.size() > 0 && timestamp_ns <= keyframes_[keyframes_.size() - 1].timestamp_ns) {
+  const int32_t newest = keyframes_.size() - 1;
+  if (newest >= 0 && timestamp_ns <= keyframes_[newest].timestamp_ns) {
     return Status::kInvalidArgument;
   }
-  if (keyframes_.full()) return Status::kCapacity;
+  if (keyframes_.full() && !slides()) return Status::kCapacity;
+  if (slides()) make_keyframe_room();
   *id = keyframes_.append(timestamp_ns);
-  if (!windows_.keyframe_added(keyframes_.size())) {
+  depth_.begin_keyframe(*id);
+  if (slides() && keyframes_.first() > live_from_) {
+    live_from_ = keyframes_.first();
+    drop_windows_before(live_from_);
+  }
+  Window skipped;
+  if (!windows_.keyframe_added(keyframes_.size(), &skipped)) {
+    if (slides()) ++counts_.submaps_refused;
     LogLine line;
-    line << "window ending at keyframe " << *id << " skipped: max_submaps reached";
+    line << "window of keyframes " << skipped.first << ".." << skipped.last() << " skipped: "
+         << (slides() ? "too many wait for their prediction" : "max_submaps reached");
     line.send(config_.log, LogLevel::kWarning);
   }
-  return Status::kOk;
+  return broken_ ? Status::kInternal : Status::kOk;
 }
 
 Status Session::add_two_view(const TwoViewInput& input) {
@@ -74,6 +84,7 @@ Status Session::add_two_view(const TwoViewInput& input) {
     }
   }
   accept_pair(input, log_ratio, multiplier);
+  make_node_room();
   return broken_ ? Status::kInternal : Status::kOk;
 }
 
@@ -121,13 +132,14 @@ void Session::give_node(int32_t keyframe, const Sim3& T_world_kf, int32_t segmen
   target.held_from = -1;
   target.segment = segment;
   ++counts_.posed_keyframes;
+  ++counts_.live_nodes;
   counts_.last_posed = std::max(counts_.last_posed, keyframe);
 }
 
 void Session::refuse_pair(int32_t j) {
   tracking_.pair_refused();
   Keyframe& keyframe = keyframes_[j];
-  keyframe.held_from = keyframes_.pose_source(j - 1);
+  keyframe.held_from = keyframes_.has(j - 1) ? keyframes_.pose_source(j - 1) : -1;
   keyframe.state = tracking_.state();
   if (keyframe.held_from >= 0) {
     keyframe.segment = keyframes_[keyframe.held_from].segment;

@@ -3,16 +3,6 @@
 #include "core/session.hpp"
 
 namespace unisim {
-namespace {
-
-/// 0 held or unknown, 1 pair only, 2 in a submap, 3 in two or a closed loop.
-int32_t confidence_of(const Keyframe& keyframe) {
-  if (!keyframe.posed()) return 0;
-  if (keyframe.loop_count > 0 || keyframe.window_count > 1) return 3;
-  return keyframe.window_count == 1 ? 2 : 1;
-}
-
-}  // namespace
 
 Sim3 Session::submap_pose(const Submap& submap) const {
   if (submap.own_node) return graph_.pose(submap.node);
@@ -26,6 +16,7 @@ Sim3 Session::keyframe_pose(int32_t keyframe) const {
 }
 
 Status Session::pose(int32_t keyframe, PoseOutput* pose) const {
+  if (keyframes_.gone(keyframe)) return Status::kRetired;
   if (!keyframes_.has(keyframe)) return Status::kInvalidArgument;
   const int32_t source = keyframes_.pose_source(keyframe);
   if (source < 0) return Status::kNotReady;
@@ -33,7 +24,7 @@ Status Session::pose(int32_t keyframe, PoseOutput* pose) const {
   pose->T_world_kf = keyframe_pose(source);
   pose->timestamp_ns = asked.timestamp_ns;
   pose->state = asked.state;
-  pose->confidence = confidence_of(asked);
+  pose->confidence = asked.confidence();
   pose->submap = asked.best_submap;
   pose->segment = asked.segment;
   return Status::kOk;

@@ -25,43 +25,66 @@ bool is_robust(const Edge& edge) { return edge.kernel.kind == RobustKernelKind::
 
 void Session::retire_surplus(int32_t newest) {
   if (broken_) return;
-  if (submaps_[newest].is_loop) {
-    if (!live_loops_.push_back(newest)) holds(Status::kInternal);
-    return;
-  }
   if (!live_windows_.push_back(newest)) holds(Status::kInternal);
   for (int32_t k = live_windows_.size() - 1; k > 0; --k) {
     int32_t& older = live_windows_[k - 1];
     if (submaps_[older].window_first <= submaps_[live_windows_[k]].window_first) break;
     std::swap(older, live_windows_[k]);
   }
-  while (!broken_ && live_windows_.size() > config_.window_submaps) {
-    retire_window(live_windows_[0], live_windows_[1]);
-    for (int32_t k = 0; k + 1 < live_windows_.size(); ++k) live_windows_[k] = live_windows_[k + 1];
-    live_windows_.pop_back();
-    retire_loops();
-    bound_skeleton();
-  }
+  while (!broken_ && live_windows_.size() > config_.window_submaps) retire_oldest();
 }
 
-void Session::retire_window(int32_t m, int32_t n) {
-  Submap& old = submaps_[m];
-  const Submap& next = submaps_[n];
+void Session::retire_oldest() {
+  const int32_t m = live_windows_[0];
+  const int32_t n = live_windows_[1];
   ChainLink link;
-  const bool linked = condense_windows(old, next, &link);
+  const bool linked = condense_windows(submaps_[m], submaps_[n], &link);
+  const int32_t node_m = submaps_[m].node;
+  const int32_t node_n = submaps_[n].node;
+  retire_submap(m, n, submaps_[n].window_first);
+  if (linked && !broken_) add_link(node_m, node_n, link);
+  retire_loops();
+  bound_skeleton();
+}
+
+/// No keyframe of the window stays but the newest settled one: nothing has come for a ring's
+/// length.
+void Session::retire_last() {
+  while (!broken_ && live_windows_.size() > 1) retire_oldest();
+  if (broken_) return;
+  if (live_windows_.empty()) {
+    holds(Status::kInternal);
+    return;
+  }
+  const int32_t last = live_windows_[0];
+  retire_submap(last, last, settled_);
+  retire_loops();
+  bound_skeleton();
+}
+
+/// Window m, the oldest, becomes a node of the skeleton; keyframes before `end` hang on it or on n.
+void Session::retire_submap(int32_t m, int32_t n, int32_t end) {
+  Submap& old = submaps_[m];
   drop_edges(m);
   if (!holds(graph_.set_kind(old.node, NodeKind::kSkeleton))) return;
   old.retired = true;
+  submaps_.release_views(&old);
+  for (int32_t k = 0; k + 1 < live_windows_.size(); ++k) live_windows_[k] = live_windows_[k + 1];
+  live_windows_.pop_back();
   ++counts_.retired_windows;
-  if (!skeleton_.push_back({m, 1})) holds(Status::kInternal);
-  for (int32_t id = live_from_; id < next.window_first; ++id) retire_keyframe(id, m, n);
-  live_from_ = std::max(live_from_, next.window_first);
-  if (linked) {
-    const RobustKernel kernel = {RobustKernelKind::kHuber, config_.huber_delta};
-    int32_t edge = -1;
-    holds(graph_.add_chain(old.node, next.node, link, {1.0, 1.0, kernel}, &edge));
-  }
+  if (!skeleton_.push_back({m, 1, old.first_owned, old.last_owned})) holds(Status::kInternal);
+  const int32_t first = std::max(live_from_, keyframes_.first());
+  for (int32_t id = first; id < end; ++id) retire_keyframe(id, m, n);
+  live_from_ = std::max(live_from_, end);
   drop_windows_before(live_from_);
+}
+
+/// A chain beyond the declared number of edges is left out: the gauge holds what it would have.
+void Session::add_link(int32_t a, int32_t b, const ChainLink& link) {
+  const RobustKernel kernel = {RobustKernelKind::kHuber, config_.huber_delta};
+  int32_t edge = -1;
+  const Status status = graph_.add_chain(a, b, link, {1.0, 1.0, kernel}, &edge);
+  if (status != Status::kCapacity) holds(status);
 }
 
 /// Relative pose of two neighbouring windows out of everything between their centres but loops.
@@ -69,7 +92,7 @@ void Session::retire_window(int32_t m, int32_t n) {
 bool Session::condense_windows(const Submap& m, const Submap& n, ChainLink* link) {
   if (!load_between(m, n)) {
     guess_link(m, n, link);
-    return segment_of(m) == segment_of(n);
+    return m.segment == n.segment;
   }
   return condenser_.condense(local_node_[m.node], local_node_[n.node], link);
 }
@@ -84,10 +107,10 @@ bool Session::load_between(const Submap& m, const Submap& n) {
     return is_ok(local.add_node(kind, between(T_world_m, graph_.pose(node)), &local_node_[node]));
   };
   bool fits = add(NodeKind::kSubmap, m.node) && add(NodeKind::kSubmap, n.node);
-  const int32_t first = submaps_.view(m, m.origin).keyframe;
-  const int32_t last = submaps_.view(n, n.origin).keyframe;
+  const int32_t first = m.origin_keyframe;
+  const int32_t last = n.origin_keyframe;
   for (int32_t id = std::min(first, last); fits && id <= std::max(first, last); ++id) {
-    const int32_t node = keyframes_[id].node;
+    const int32_t node = keyframes_.has(id) ? keyframes_[id].node : -1;
     if (node >= 0) fits = add(NodeKind::kKeyframe, node);
   }
   for (int32_t id = 0; fits && id < graph_.edge_end(); ++id) {
@@ -103,8 +126,8 @@ bool Session::load_between(const Submap& m, const Submap& n) {
 /// A stretch too long to condense, windows refused in a row: where it is now, as sure as that many
 /// two-view edges.
 void Session::guess_link(const Submap& m, const Submap& n, ChainLink* link) const {
-  const int32_t first = submaps_.view(m, m.origin).keyframe;
-  const int32_t last = submaps_.view(n, n.origin).keyframe;
+  const int32_t first = m.origin_keyframe;
+  const int32_t last = n.origin_keyframe;
   const double information = config_.factor(FactorKind::kTwoView).information;
   link->Z_a_b = between(graph_.pose(m.node), graph_.pose(n.node));
   link->Lambda = Mat7::Identity() * (information / std::max(1, std::abs(last - first)));
@@ -132,6 +155,20 @@ void Session::drop_edges(int32_t id) {
     }
     drop(&scale);
   }
+  submaps_.drop_shared(id);
+  count_window_pairs();
+}
+
+void Session::count_window_pairs() {
+  const Span<const SharedKeyframe> shared = submaps_.shared();
+  window_pairs_ = 0;
+  for (int32_t k = 0; k < shared.size(); ++k) {
+    bool counted = false;
+    for (int32_t i = 0; i < k; ++i) {
+      counted = counted || (shared[i].m == shared[k].m && shared[i].n == shared[k].n);
+    }
+    window_pairs_ += counted ? 0 : 1;
+  }
 }
 
 void Session::retire_keyframe(int32_t id, int32_t m, int32_t n) {
@@ -143,9 +180,9 @@ void Session::retire_keyframe(int32_t id, int32_t m, int32_t n) {
   keyframe.owner = owner;
   holds(graph_.remove_node(keyframe.node));
   keyframe.node = -1;
-  if (carrier.first_owned < 0) carrier.first_owned = id;
-  carrier.last_owned = std::max(carrier.last_owned, id);
+  note_owned(&carrier, id);
   ++counts_.retired_keyframes;
+  --counts_.live_nodes;
   for (const int32_t loop : live_loops_) {
     const Submap& submap = submaps_[loop];
     for (int32_t k = 0; k < submap.count; ++k) {
@@ -155,16 +192,30 @@ void Session::retire_keyframe(int32_t id, int32_t m, int32_t n) {
   }
 }
 
+void Session::note_owned(Submap* carrier, int32_t keyframe) {
+  const auto note = [keyframe](int32_t* first, int32_t* last) {
+    *first = *first < 0 ? keyframe : std::min(*first, keyframe);
+    *last = std::max(*last, keyframe);
+  };
+  note(&carrier->first_owned, &carrier->last_owned);
+  if (!carrier->retired) return;
+  for (int32_t k = skeleton_.size() - 1; k >= 0; --k) {
+    if (submaps_[skeleton_[k].submap].node != carrier->node) continue;
+    note(&skeleton_[k].first_owned, &skeleton_[k].last_owned);
+    return;
+  }
+}
+
 /// The window over it whose centre is nearest; without one the nearer of the two it lies between.
 int32_t Session::owner_of(int32_t id, int32_t m, int32_t n) const {
   const int32_t best = keyframes_[id].best_submap;
-  if (best >= 0 && !submaps_[best].is_loop) return best;
+  if (best >= 0 && submaps_.has(best) && !submaps_[best].is_loop) return best;
   const auto distance = [&](int32_t submap) {
-    return std::abs(submaps_.view(submaps_[submap], submaps_[submap].origin).keyframe - id);
+    return std::abs(submaps_[submap].origin_keyframe - id);
   };
   const int32_t segment = keyframes_[id].segment;
-  const bool m_fits = segment_of(submaps_[m]) == segment;
-  const bool n_fits = segment_of(submaps_[n]) == segment;
+  const bool m_fits = submaps_[m].segment == segment;
+  const bool n_fits = submaps_[n].segment == segment;
   if (m_fits != n_fits) return m_fits ? m : n;
   return distance(m) <= distance(n) ? m : n;
 }

@@ -22,9 +22,22 @@ void Session::retire_loops() {
 bool Session::all_retired(const Submap& submap) const {
   for (int32_t k = 0; k < submap.count; ++k) {
     const SubmapView& view = submaps_.view(submap, k);
-    if (view.used && !keyframes_[view.keyframe].retired()) return false;
+    if (view.used && keyframes_.has(view.keyframe) && keyframes_[view.keyframe].node >= 0) {
+      return false;
+    }
   }
   return true;
+}
+
+/// Keyframes that have not retired are taken as rigid under the window they are nearest to.
+void Session::condense_early(int32_t id) {
+  if (live_windows_.empty() && skeleton_.empty()) close_stretch();
+  int32_t kept = 0;
+  for (const int32_t loop : live_loops_) {
+    if (loop != id) live_loops_[kept++] = loop;
+  }
+  live_loops_.resize(kept);
+  retire_loop(id);
 }
 
 void Session::retire_loop(int32_t id) {
@@ -35,21 +48,22 @@ void Session::retire_loop(int32_t id) {
   const int32_t b = main_node(loop, split, loop.count);
   ChainLink link;
   const bool linked = a >= 0 && b >= 0 && a != b && condense_loop(loop, a, b, split, &link);
-  const Sim3 T_a_loop = between(graph_.pose(a), graph_.pose(loop.node));
+  const Sim3 T_world_loop = graph_.pose(loop.node);
+  if (loop.health.suspended) --counts_.suspended_loops;
   holds(graph_.remove_node(loop.node));
-  for (int32_t k = 0; k < loop.count; ++k) {
-    submaps_.view(loop, k).bridge = -1;
-    submaps_.view(loop, k).anchor = -1;
+  submaps_.release_views(&loop);
+  ++counts_.retired_loops;
+  const int32_t place = a >= 0 ? a : b;
+  const int32_t carrier = place >= 0 ? place : node_under(loop.origin_keyframe);
+  if (carrier < 0) {
+    submaps_.erase(id);
+    return;
   }
-  loop.node = a;
-  loop.T_node_submap = T_a_loop;
+  loop.node = carrier;
+  loop.T_node_submap = between(graph_.pose(carrier), T_world_loop);
   loop.own_node = false;
   loop.retired = true;
-  ++counts_.retired_loops;
-  if (!linked) return;
-  const RobustKernel kernel = {RobustKernelKind::kGemanMcClure, config_.loop_delta};
-  int32_t edge = -1;
-  holds(graph_.add_chain(a, b, link, {1.0, 1.0, kernel}, &edge));
+  if (linked && !loop.removed) add_loop_edge(a, b, link, &loop);
 }
 
 /// First view of the second place: behind the widest gap between keyframes that take part.
@@ -59,7 +73,7 @@ int32_t Session::split_view(const Submap& loop) const {
   int32_t split = loop.count;
   for (int32_t k = 0; k < loop.count; ++k) {
     const SubmapView& view = submaps_.view(loop, k);
-    if (!view.used) continue;
+    if (!view.used || !keyframes_.has(view.keyframe)) continue;
     if (before >= 0 && view.keyframe - before > widest) {
       widest = view.keyframe - before;
       split = k;
@@ -69,11 +83,29 @@ int32_t Session::split_view(const Submap& loop) const {
   return split;
 }
 
+/// Node that carries a keyframe, or will: that of the window over it or nearest to it. -1: none.
+int32_t Session::node_under(int32_t keyframe) const {
+  if (!keyframes_.has(keyframe)) return -1;
+  const Keyframe& asked = keyframes_[keyframe];
+  if (asked.retired()) return submaps_[asked.owner].node;
+  int32_t best = asked.best_submap;
+  if (best >= 0 && submaps_.has(best) && !submaps_[best].is_loop) return submaps_[best].node;
+  best = -1;
+  for (const int32_t id : live_windows_) {
+    if (submaps_[id].segment != asked.segment) continue;
+    if (best < 0 || std::abs(submaps_[id].origin_keyframe - keyframe) <
+                        std::abs(submaps_[best].origin_keyframe - keyframe)) {
+      best = id;
+    }
+  }
+  return best < 0 ? -1 : submaps_[best].node;
+}
+
 /// Node on which most of the views begin .. end - 1 hang.
 int32_t Session::main_node(const Submap& loop, int32_t begin, int32_t end) const {
   const auto node_of = [&](int32_t k) {
     const SubmapView& view = submaps_.view(loop, k);
-    return view.used ? submaps_[keyframes_[view.keyframe].owner].node : -1;
+    return view.used ? node_under(view.keyframe) : -1;
   };
   int32_t best = -1;
   int32_t most = 0;
@@ -98,10 +130,14 @@ bool Session::condense_loop(const Submap& loop, int32_t a, int32_t b, int32_t sp
   const auto T_node_kf = [&](int32_t k) {
     return between(graph_.pose(k < split ? a : b), keyframe_pose(submaps_.view(loop, k).keyframe));
   };
+  const auto takes_part = [&](int32_t k) {
+    const SubmapView& view = submaps_.view(loop, k);
+    return view.used && keyframes_.has(view.keyframe);
+  };
   const auto middle = [&](int32_t begin, int32_t end) {
     int32_t best = -1;
     for (int32_t k = begin; k < end; ++k) {
-      if (submaps_.view(loop, k).used && (best < 0 || k <= (begin + end) / 2)) best = k;
+      if (takes_part(k) && (best < 0 || k <= (begin + end) / 2)) best = k;
     }
     return best;
   };
@@ -118,7 +154,7 @@ bool Session::condense_loop(const Submap& loop, int32_t a, int32_t b, int32_t sp
               is_ok(local.add_node(NodeKind::kSubmap, T_a_loop, &local_loop));
   for (int32_t k = 0; fits && k < loop.count; ++k) {
     const SubmapView& view = submaps_.view(loop, k);
-    if (!view.used) continue;
+    if (!takes_part(k)) continue;
     const int32_t place = k < split ? local_a : local_b;
     const Sim3 X = T_node_kf(k);
     int32_t edge = -1;

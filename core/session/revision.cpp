@@ -8,12 +8,13 @@
 namespace unisim {
 
 Status Session::update_submap(const SubmapUpdate& update) {
+  if (submaps_.gone(update.submap)) return Status::kRetired;
   if (!submaps_.has(update.submap)) return Status::kInvalidArgument;
   Submap& submap = submaps_[update.submap];
   if (submap.node < 0 || update.T_submap_kf.size() != submap.count) {
     return Status::kInvalidArgument;
   }
-  if (submap.retired) return Status::kOk;
+  if (submap.retired || submap.removed) return Status::kOk;
   const double gate = submap.is_loop ? config_.sigma_gate_loop : config_.sigma_gate;
   if (update.center_sigma > gate) {
     LogLine line;

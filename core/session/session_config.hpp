@@ -7,6 +7,7 @@
 #include "core/graph/edge.hpp"
 #include "core/graph/graph.hpp"
 #include "core/map/depth_book.hpp"
+#include "core/map/submap_table.hpp"
 #include "core/session/event_log.hpp"
 #include "core/solve/solver_capacity.hpp"
 
@@ -39,6 +40,7 @@ struct SessionConfig {
   FactorSetting factors[kFactorKinds];  ///< by FactorKind
   double huber_delta = 1.0;
   double loop_delta = 0.1;
+  double loop_gate = 0.4;
   double live_scale_exponent = 0.5;
   double confidence_drop = 0.25;
   double sigma_reference = 0.001;
@@ -54,24 +56,26 @@ struct SessionConfig {
   const FactorSetting& factor(FactorKind kind) const { return factors[static_cast<int>(kind)]; }
 };
 
-/// Every array length of a session.
+/// Every array length of a session. Of a sliding window none depends on how long it runs.
 struct SessionCapacity {
-  int32_t keyframes = 0;
-  int32_t windows = 0;       ///< submaps of windows
-  int32_t submaps = 0;       ///< with loops
-  int32_t views = 0;         ///< over all submaps
-  int32_t shared = 0;        ///< tie edges
+  int32_t keyframes = 0;   ///< kept
+  int32_t live_nodes = 0;  ///< keyframes in the graph; more than that are closed into the skeleton
+  int32_t open_windows = 0;  ///< of the full batch: windows in all
+  SubmapTableSize submaps;
   int32_t window_pairs = 0;  ///< pairs of submaps that share keyframes: scale edges
   int32_t live_windows = 0;  ///< windows with their keyframes in the graph, 0: all of them
   int32_t live_loops = 0;
-  int32_t skeleton = 0;
+  int32_t skeleton = 0;    ///< nodes that stay when a window has been added
+  int32_t loop_edges = 0;  ///< condensed loops
+  int32_t merges = 0;      ///< that wait to be offered
   GraphCapacity condenser;
   GraphCapacity graph;
   SolverCapacity solver;
   DepthBookSize depth;
 };
 
-/// Lengths that hold whatever is fed within the configured numbers.
+/// Lengths that hold whatever is fed: within the configured numbers in the full batch, for ever in
+/// a sliding window.
 SessionCapacity session_capacity(const SessionConfig& config);
 
 }  // namespace unisim

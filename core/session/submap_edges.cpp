@@ -52,6 +52,7 @@ void Session::attach_view(const Submap& submap, SubmapView* view) {
     const double log_ratio = rigid ? view->log_rho - math::log(T_node_kf.s) : view->log_rho;
     holds(graph_.add_scale_anchor(submap.node, node, log_ratio, weight, &view->anchor));
   }
+  if (submap.health.suspended) suspend_edges(submap, true);
 }
 
 void Session::add_shared_edges(int32_t id) {

@@ -13,6 +13,7 @@ namespace unisim {
 Status Session::check_views(const SubmapInput& input, bool is_loop, int32_t* window) const {
   const int32_t count = input.keyframes.size();
   for (int32_t k = 0; k < count; ++k) {
+    if (is_loop && keyframes_.gone(input.keyframes[k])) return Status::kRetired;
     if (!keyframes_.has(input.keyframes[k])) return Status::kInvalidArgument;
     if (k > 0 && input.keyframes[k] <= input.keyframes[k - 1]) return Status::kInvalidArgument;
   }
@@ -25,8 +26,8 @@ Status Session::check_views(const SubmapInput& input, bool is_loop, int32_t* win
     if (*window < 0) return Status::kInvalidArgument;
     if (windows_.at(*window).last() > settled_for_windows()) return Status::kNotReady;
   }
-  const bool room = count <= config_.window_size && submaps_.has_room(count) &&
-                    (!is_loop || counts_.loops < config_.max_loops);
+  const bool room = count <= config_.window_size && (slides() || submaps_.has_room(is_loop)) &&
+                    (!is_loop || config_.max_loops > 0);
   return room ? Status::kOk : Status::kCapacity;
 }
 
@@ -37,10 +38,11 @@ Status Session::add_submap(const SubmapInput& input, bool is_loop, int32_t* id) 
   const Window answered = is_loop ? Window{} : windows_.at(window);
   if (!is_loop) windows_.remove(window);
 
-  const int32_t made = submaps_.append(input.keyframes.size());
+  if (slides()) make_submap_room(is_loop);
+  const int32_t made = submaps_.append(is_loop, input.keyframes.size());
   Submap& submap = submaps_[made];
-  submap.is_loop = is_loop;
   submap.window_first = answered.first;
+  submap.window_last = answered.last();
   submap.center_sigma = input.center_sigma;
   measure_views(input, is_loop, &submap);
   if (!choose_origin(&submap) || !judge_submap(&submap, made)) {
@@ -55,7 +57,9 @@ Status Session::add_submap(const SubmapInput& input, bool is_loop, int32_t* id) 
   add_shared_edges(made);
   if (!is_loop) keep_shared_depth(input, made, answered);
   count_cover(made);
-  if (config_.window_submaps > 0) retire_surplus(made);
+  if (is_loop && !live_loops_.push_back(made)) holds(Status::kInternal);
+  if (!is_loop && slides()) retire_surplus(made);
+  make_node_room();
   ++(is_loop ? counts_.loops : counts_.windows);
   if (broken_) return Status::kInternal;
   *id = made;
@@ -67,7 +71,7 @@ void Session::measure_views(const SubmapInput& input, bool is_loop, Submap* subm
   int32_t measured = 0;
   for (int32_t k = 0; k < submap->count; ++k) {
     SubmapView& view = submaps_.view(*submap, k);
-    view.keyframe = input.keyframes[k];
+    submaps_.set_keyframe(*submap, k, input.keyframes[k]);
     view.segment = keyframes_[view.keyframe].posed() ? keyframes_[view.keyframe].segment : -1;
     view.T_submap_kf = input.T_submap_kf[k];
     measure_view(input.depth[k], !is_loop, !is_loop, &view);
@@ -91,7 +95,8 @@ void Session::measure_view(const DepthMap& depth, bool may_adopt, bool may_share
   }
   if (!may_share || !view->used) return;
   const DepthStore::Source source = depth_.submap_source(view->keyframe);
-  const bool kept = source.keyframe >= 0 && !submaps_[source.submap].retired;
+  const bool kept =
+      source.keyframe >= 0 && submaps_.has(source.submap) && !submaps_[source.submap].retired;
   if (!kept || !depth_.over_submap(view->keyframe, &ratio)) return;
   view->log_c = -ratio.log_ratio;
   view->shared_submap = source.submap;
@@ -114,6 +119,8 @@ bool Session::choose_origin(Submap* submap) {
   constexpr int32_t kFewestViews = 2;
   if (best < 0 || used < kFewestViews) return false;
   submap->origin = best;
+  submap->origin_keyframe = submaps_.view(*submap, best).keyframe;
+  submap->segment = submaps_.view(*submap, best).segment;
   const Sim3 T_origin = submaps_.view(*submap, best).T_submap_kf;
   for (int32_t k = 0; k < submap->count; ++k) {
     Sim3& T_submap_kf = submaps_.view(*submap, k).T_submap_kf;
@@ -173,13 +180,14 @@ void Session::join_segment(const Submap& submap, int32_t segment, int32_t into) 
       graph_.pose(submap.node) * bridge_measurement(view.T_submap_kf, math::exp(view.log_rho));
   const Sim3 correction = T_world_kf * keyframe_pose(view.keyframe).inverse();
   move_retired(segment, correction);
-  for (int32_t id = 0; id < submaps_.size(); ++id) {
-    const Submap& other = submaps_[id];
-    if (other.node < 0 || other.node == submap.node || !other.own_node) continue;
-    if (segment_of(other) != segment) continue;
+  for (int32_t k = 0; k < submaps_.size(); ++k) {
+    Submap& other = submaps_.at(k);
+    if (other.segment != segment) continue;
+    other.segment = into;
+    if (!other.own_node) continue;
     holds(graph_.set_pose(other.node, correction * graph_.pose(other.node)));
   }
-  for (int32_t id = 0; id < keyframes_.size(); ++id) {
+  for (int32_t id = keyframes_.first(); id < keyframes_.size(); ++id) {
     Keyframe& keyframe = keyframes_[id];
     if (keyframe.segment != segment) continue;
     keyframe.segment = into;
@@ -193,19 +201,15 @@ void Session::join_segment(const Submap& submap, int32_t segment, int32_t into) 
   line.send(config_.log, LogLevel::kInfo);
 }
 
-int32_t Session::segment_of(const Submap& submap) const {
-  return keyframes_[submaps_.view(submap, submap.origin).keyframe].segment;
-}
-
 /// Retired keyframes go with their owner; where only one of the two belongs to the segment that
 /// moves, the offset between them changes.
 void Session::move_retired(int32_t segment, const Sim3& correction) {
-  for (int32_t id = 0; id < live_from_; ++id) {
+  for (int32_t id = keyframes_.first(); id < live_from_; ++id) {
     Keyframe& keyframe = keyframes_[id];
     if (!keyframe.retired()) continue;
     const Submap& owner = submaps_[keyframe.owner];
     const bool moves = keyframe.segment == segment;
-    const bool owner_moves = segment_of(owner) == segment;
+    const bool owner_moves = owner.segment == segment;
     if (moves == owner_moves) continue;
     const Sim3 T_world_kf = keyframe_pose(id);
     const Sim3 T_world_owner = submap_pose(owner);

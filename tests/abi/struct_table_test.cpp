@@ -22,7 +22,7 @@ AT(unisim_depth_map, confidence, 8);
 AT(unisim_depth_map, width, 16);
 AT(unisim_depth_map, height, 20);
 
-SIZE(unisim_config, 176);
+SIZE(unisim_config, 184);
 AT(unisim_config, struct_size, 0);
 AT(unisim_config, preset, 4);
 AT(unisim_config, window_size, 8);
@@ -52,6 +52,7 @@ AT(unisim_config, log, 152);
 AT(unisim_config, log_user, 160);
 AT(unisim_config, window_submaps, 168);
 AT(unisim_config, skeleton_capacity, 172);
+AT(unisim_config, loop_gate, 176);
 
 SIZE(unisim_arena_part, 16);
 AT(unisim_arena_part, name, 0);
@@ -138,7 +139,7 @@ AT(unisim_submap_info, T_world_submap, 272);
 AT(unisim_submap_info, center_sigma, 336);
 AT(unisim_submap_info, scatter, 344);
 
-SIZE(unisim_session_info, 72);
+SIZE(unisim_session_info, 112);
 AT(unisim_session_info, struct_size, 0);
 AT(unisim_session_info, state, 4);
 AT(unisim_session_info, keyframes, 8);
@@ -155,6 +156,35 @@ AT(unisim_session_info, map_revision, 48);
 AT(unisim_session_info, reserved, 52);
 AT(unisim_session_info, arena_bytes, 56);
 AT(unisim_session_info, arena_peak_bytes, 64);
+AT(unisim_session_info, first_keyframe, 72);
+AT(unisim_session_info, retired_keyframes, 76);
+AT(unisim_session_info, retired_unread, 80);
+AT(unisim_session_info, stretches, 84);
+AT(unisim_session_info, suspended_loops, 88);
+AT(unisim_session_info, loop_suspensions, 92);
+AT(unisim_session_info, loop_returns, 96);
+AT(unisim_session_info, loops_removed, 100);
+AT(unisim_session_info, loops_dropped, 104);
+AT(unisim_session_info, reserved_2, 108);
+
+SIZE(unisim_retired, 104);
+AT(unisim_retired, struct_size, 0);
+AT(unisim_retired, kind, 4);
+AT(unisim_retired, keyframe_id, 8);
+AT(unisim_retired, submap_id, 12);
+AT(unisim_retired, anchor_id, 16);
+AT(unisim_retired, confidence, 20);
+AT(unisim_retired, segment, 24);
+AT(unisim_retired, reserved, 28);
+AT(unisim_retired, timestamp_ns, 32);
+AT(unisim_retired, T, 40);
+
+SIZE(unisim_loop_info, 24);
+AT(unisim_loop_info, struct_size, 0);
+AT(unisim_loop_info, submap_id, 4);
+AT(unisim_loop_info, state, 8);
+AT(unisim_loop_info, condensed, 12);
+AT(unisim_loop_info, residual, 16);
 
 TEST_CASE("numbers of statuses, bits and states never move") {
   CHECK(UNISIM_OK == 0);
@@ -165,6 +195,13 @@ TEST_CASE("numbers of statuses, bits and states never move") {
   CHECK(UNISIM_ERR_NUMERICAL == 5);
   CHECK(UNISIM_ERR_INTERNAL == 6);
   CHECK(UNISIM_ERR_ABI_MISMATCH == 7);
+  CHECK(UNISIM_ERR_RETIRED == 8);
+  CHECK(UNISIM_RETIRED_KEYFRAME == 0);
+  CHECK(UNISIM_RETIRED_SUBMAP == 1);
+  CHECK(UNISIM_LOOP_ACTIVE == 0);
+  CHECK(UNISIM_LOOP_SUSPENDED == 1);
+  CHECK(UNISIM_LOOP_RIGID == 2);
+  CHECK(UNISIM_LOOP_REMOVED == 3);
   CHECK(UNISIM_MAX_VIEWS == 64);
   CHECK(UNISIM_FACTOR_TWO_VIEW == 1U);
   CHECK(UNISIM_FACTOR_BRIDGE == 2U);

@@ -48,3 +48,32 @@ TEST_CASE("a long random session makes no heap call") {
   CHECK(caller.count(UNISIM_OK) > 2000);
   CHECK(caller.count(UNISIM_ERR_INTERNAL) == 0);
 }
+
+TEST_CASE("twenty thousand keyframes in a sliding window make no heap call") {
+  unisim_config config;
+  REQUIRE(unisim_config_init(&config, sizeof config) == UNISIM_OK);
+  config.window_submaps = 2;
+  size_t size = 0;
+  REQUIRE(unisim_arena_size(&config, &size) == UNISIM_OK);
+  std::unique_ptr<unsigned char[]> arena(new unsigned char[size]);
+  unisim_session* session = nullptr;
+  REQUIRE(unisim_session_create(&session, &config, arena.get(), size) == UNISIM_OK);
+  Habits habits;
+  habits.keyframes = 20000;
+  habits.reads = 0.02;
+  habits.optimizes = 0.1;
+  RandomCaller caller(session, config, 5U, habits);
+  const int64_t before = heap_calls();
+  while (caller.step()) {
+  }
+  const int64_t during = heap_calls() - before;
+  CHECK(during == 0);
+  CHECK(caller.count(UNISIM_ERR_CAPACITY) == 0);
+  CHECK(caller.count(UNISIM_ERR_INTERNAL) == 0);
+  unisim_session_info info = {};
+  info.struct_size = sizeof info;
+  REQUIRE(unisim_get_info(session, &info) == UNISIM_OK);
+  CHECK(info.keyframes == 20000);
+  CHECK(info.first_keyframe > 18000);
+  CHECK(info.retired_keyframes > 10000);
+}

@@ -3,6 +3,7 @@
 #include "tools/bench/walk/walk_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "tests/support/catch.hpp"
@@ -77,6 +78,24 @@ TEST_CASE("a sliding window with its skeleton is about as right as the full batc
   const WalkResult merged = run_walk(settings, {});
   CHECK(merged.ate_m != unlimited.ate_m);
   CHECK(merged.ate_m < 0.1);
+}
+
+TEST_CASE("a walk longer than what stays readable is known from what was streamed out") {
+  WalkSettings settings;
+  settings.keyframes = 600;
+  settings.batch = false;
+  const WalkResult whole = run_walk(settings, {});
+  settings.readable = 590;
+  const WalkResult streamed = run_walk(settings, {});
+  CHECK(whole.loops_out_of_reach == 0);
+  CHECK(streamed.loops_out_of_reach == 0);
+  CHECK(std::abs(streamed.ate_m - whole.ate_m) < 1e-9);
+  settings.readable = 300;
+  const WalkResult forgetful = run_walk(settings, {});
+  CHECK(forgetful.loops_out_of_reach > 0);
+  CHECK(forgetful.arena_bytes < whole.arena_bytes);
+  settings.keyframes = 900;
+  CHECK(run_walk(settings, {}).arena_bytes == forgetful.arena_bytes);
 }
 
 TEST_CASE("the full batch is its own measure, and comparing can be left out") {

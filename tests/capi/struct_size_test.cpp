@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Programs built against an older or a newer header: the struct_size rules.
+#include <cstddef>
 #include <cstring>
 #include <vector>
 
@@ -35,6 +36,17 @@ TEST_CASE("a config of a newer header passes while its unknown tail is zero") {
   CHECK(unisim_arena_size(&config.known, &size) == UNISIM_ERR_ABI_MISMATCH);
 }
 
+TEST_CASE("a config of the first release takes defaults for what came later") {
+  unisim_config config = default_config();
+  size_t today = 0;
+  REQUIRE(unisim_arena_size(&config, &today) == UNISIM_OK);
+  config.struct_size = offsetof(unisim_config, loop_gate);
+  config.loop_gate = -1.0;
+  size_t size = 0;
+  CHECK(unisim_arena_size(&config, &size) == UNISIM_OK);
+  CHECK(size == today);
+}
+
 TEST_CASE("unisim_config_init fills a newer struct's tail with zeros") {
   Newer<unisim_config> config;
   std::memset(&config, 0xFF, sizeof config);
@@ -47,7 +59,7 @@ TEST_CASE("structs smaller than the first release are refused") {
   unisim_config config = default_config();
   size_t size = 0;
   CHECK(unisim_config_init(&config, 8) == UNISIM_ERR_ABI_MISMATCH);
-  config.struct_size = sizeof config - 8;
+  config.struct_size = offsetof(unisim_config, skeleton_capacity);
   CHECK(unisim_arena_size(&config, &size) == UNISIM_ERR_ABI_MISMATCH);
   Host host(default_config());
   unisim_keyframe keyframe = {8, 0, 0};

@@ -153,6 +153,14 @@ void RandomCaller::read() {
   note(unisim_get_trajectory(session_, trajectory_.data(), trajectory_.size(), &count));
   double covariance[49];
   note(unisim_get_covariance(session_, below(keyframes_ + 2) - 1, covariance));
+  unisim_retired retired = {};
+  retired.struct_size = sizeof retired;
+  for (int k = 0; k < 20 && unisim_next_retired(session_, &retired) == UNISIM_OK; ++k) {
+  }
+  unisim_loop_info loop = {};
+  loop.struct_size = sizeof loop;
+  note(unisim_get_loop(session_, below(submaps_ + 2) - 1, &loop));
+  if (chance(0.1)) note(unisim_remove_loop(session_, below(submaps_ + 2) - 1));
 }
 
 void RandomCaller::optimize() {
@@ -182,6 +190,7 @@ void RandomCaller::answer_request() {
 
 bool RandomCaller::step() {
   const int32_t dice = below(100);
+  if (keyframes_ >= habits_.keyframes) return false;
   if (dice < 25) return add_keyframe();
   if (dice < 80) {
     answer_request();
@@ -190,9 +199,9 @@ bool RandomCaller::step() {
   } else if (dice < 85) {
     update();
   } else if (dice < 95) {
-    read();
+    if (chance(habits_.reads)) read();
   } else if (dice < 99) {
-    optimize();
+    if (chance(habits_.optimizes)) optimize();
   } else {
     note(unisim_close_window(session_));
   }

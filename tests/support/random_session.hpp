@@ -12,9 +12,12 @@ namespace unisim::test {
 
 /// How often the caller errs.
 struct Habits {
-  double garbage = 0.0;  ///< share of calls with a random field broken
-  double reject = 0.05;  ///< share of requests rejected
-  double noise = 0.01;   ///< of poses
+  double garbage = 0.0;     ///< share of calls with a random field broken
+  double reject = 0.05;     ///< share of requests rejected
+  double noise = 0.01;      ///< of poses
+  double reads = 1.0;       ///< share of the usual reading of poses and covariances
+  double optimizes = 1.0;   ///< share of the usual optimisations
+  int32_t keyframes = 600;  ///< after which it ends
 };
 
 /// Calls unisim.h at random on one session. All memory is taken in the constructor.
@@ -23,7 +26,7 @@ class RandomCaller {
   RandomCaller(unisim_session* session, const unisim_config& config, uint32_t seed,
                const Habits& habits);
 
-  /// One call. false: the keyframe capacity is reached.
+  /// One call. false: the last keyframe, of the habits or of the session's capacity, is there.
   bool step();
   /// Optimisations that found the solver's declared memory too small.
   int64_t solver_overflows() const { return solver_overflows_; }

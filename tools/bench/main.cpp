@@ -73,6 +73,10 @@ void add_window(CLI::App* app, WalkSettings* settings, bool* json) {
                       "newest submaps whose keyframes are optimised; 0: the full batch");
   command->add_option("--skeleton-capacity", settings->skeleton_capacity,
                       "older submaps that are optimised one by one; 0: no limit");
+  command
+      ->add_option("--readable", settings->readable,
+                   "newest keyframes that stay readable in a sliding window; 0: all")
+      ->check(CLI::Range(0, 65536));
   command->add_option("--batch", settings->batch, "on: walk once more as a full batch, to compare")
       ->transform(on_off());
   command->add_flag("--json", *json, "one line of JSON");

@@ -110,7 +110,7 @@ CloudPoses read_cloud_poses(const unisim_session* session) {
     pose.struct_size = sizeof pose;
     if (unisim_get_pose(session, id, &pose) == UNISIM_OK) poses.keyframes.push_back(pose);
   }
-  for (int32_t id = 0; id < info.submaps + info.loops; ++id) {
+  for (int32_t id = 0; id < info.submaps + info.stretches + info.loops; ++id) {
     unisim_submap_info submap{};
     submap.struct_size = sizeof submap;
     const bool known = unisim_get_submap(session, id, &submap) == UNISIM_OK;

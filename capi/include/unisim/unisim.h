@@ -52,6 +52,7 @@ typedef int32_t unisim_status;
 #define UNISIM_ERR_NUMERICAL 5     /**< no descent or not positive definite; poses stay */
 #define UNISIM_ERR_INTERNAL 6      /**< broken invariant; all later calls until reset say so */
 #define UNISIM_ERR_ABI_MISMATCH 7  /**< struct_size is not one this library knows */
+#define UNISIM_ERR_RETIRED 8       /**< was there, and has made room for newer ones */
 
 /** Fixed text for a status code; never NULL. */
 UNISIM_API const char* unisim_status_string(unisim_status status);
@@ -110,9 +111,12 @@ typedef struct unisim_config {
   int32_t preset;         /**< UNISIM_PRESET_* */
   int32_t window_size;    /**< keyframes per submap w, 2..UNISIM_MAX_VIEWS (16) */
   int32_t window_overlap; /**< keyframes shared by neighbouring submaps, 0..window_size-1 (2) */
-  int32_t max_keyframes;  /**< capacity, 2..65536 (1024) */
-  int32_t max_submaps; /**< capacity, 0: enough for max_keyframes; later windows are skipped (0) */
-  int32_t max_loops;   /**< capacity of loop submaps, 0..4096 (64) */
+  int32_t max_keyframes;  /**< capacity, 2..65536; with window_submaps the newest keyframes that
+                               stay readable, at least (window_submaps + 9) window_size (1024) */
+  int32_t max_submaps; /**< capacity, 0: enough for max_keyframes; later windows are skipped. With
+                            window_submaps the newest windows that stay readable (0) */
+  int32_t max_loops;   /**< capacity of loop submaps, 0..4096; with window_submaps the newest ones
+                            that stay readable, 0: no loops (64) */
   int32_t depth_grid_width;   /**< depth maps are sampled on this grid for ratios, 4..512 (80) */
   int32_t depth_grid_height;  /**< 4..512 (60) */
   uint32_t disabled_factors;  /**< bits UNISIM_FACTOR_* (0) */
@@ -137,10 +141,15 @@ typedef struct unisim_config {
   int32_t window_submaps; /**< newest windows whose keyframes are optimised, 2..64. Older keyframes
                                keep the place in their submap that unisim_optimize() last gave them
                                (call it after each window) and move with it; what joined two
-                               submaps becomes one edge. 0: all of them, the full batch (0) */
+                               submaps becomes one edge. The session then runs for ever in its
+                               arena and refuses nothing for want of room: keyframes that no
+                               window comes for are closed into the skeleton by their pairs.
+                               0: all of them, the full batch (0) */
   int32_t skeleton_capacity; /**< with window_submaps: submaps older than that are optimised one by
                                   one up to this many, 8..65536; beyond, neighbours in time become
-                                  rigid. 0: no limit (128) */
+                                  rigid. 0: as many as windows stay readable (128) */
+  double loop_gate;          /**< whitened residual beyond which a loop is suspended after some
+                                  optimisations; 0: 4 loop_delta (0) */
 } unisim_config;
 
 /** Defaults for every field.
@@ -210,7 +219,7 @@ typedef struct unisim_keyframe {
  *  @param[in]  keyframe timestamps must grow
  *  @param[out] id       0, 1, 2 ... in order of arrival
  *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT (NULL, time not after the last),
- *          UNISIM_ERR_CAPACITY */
+ *          UNISIM_ERR_CAPACITY (full batch only) */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_keyframe(unisim_session* session,
                                                               const unisim_keyframe* keyframe,
                                                               int32_t* id);
@@ -275,7 +284,7 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_submap(unisim_session* sess
  *  @param session live session
  *  @param[in] submap see unisim_submap
  *  @param[out] submap_id as for unisim_add_submap()
- *  @return as unisim_add_submap() */
+ *  @return as unisim_add_submap(); UNISIM_ERR_RETIRED when a keyframe is no longer kept */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_loop(unisim_session* session,
                                                           const unisim_submap* submap,
                                                           int32_t* submap_id);
@@ -299,7 +308,7 @@ typedef struct unisim_submap_update {
  *  @param session live session
  *  @param[in] update see unisim_submap_update
  *  @return UNISIM_OK (refused for its quality too), UNISIM_ERR_INVALID_ARGUMENT (also: unknown
- *          submap, other count) */
+ *          submap, other count), UNISIM_ERR_RETIRED when the submap is no longer kept */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_update_submap(unisim_session* session,
                                                                const unisim_submap_update* update);
 
@@ -415,11 +424,12 @@ typedef struct unisim_pose {
  *  @param session live session
  *  @param keyframe_id as unisim_add_keyframe() gave it
  *  @param[out] pose filled on success
- *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_NOT_READY (no pose yet) */
+ *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_NOT_READY (no pose yet),
+ *          UNISIM_ERR_RETIRED (older than the newest max_keyframes: unisim_next_retired()) */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_pose(const unisim_session* session,
                                                           int32_t keyframe_id, unisim_pose* pose);
 
-/** Latest poses of all keyframes that have one, ascending.
+/** Latest poses of all keyframes that are kept and have one, ascending.
  *  @param session live session
  *  @param[out] poses    caller's array; poses[0].struct_size set by the caller, it counts for all
  *  @param      capacity its length
@@ -438,10 +448,79 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_trajectory(const unisim_ses
  *  @param keyframe_id as unisim_add_keyframe() gave it
  *  @param[out] covariance 49 values, column-major
  *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_NOT_READY when the graph has
- *          changed since or the pose is held, UNISIM_ERR_NUMERICAL */
+ *          changed since or the pose is held, UNISIM_ERR_NUMERICAL, UNISIM_ERR_RETIRED */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_covariance(unisim_session* session,
                                                                 int32_t keyframe_id,
                                                                 double covariance[49]);
+
+/** Kinds of unisim_retired. */
+#define UNISIM_RETIRED_KEYFRAME 0 /**< a keyframe, rigid in a submap from now on */
+#define UNISIM_RETIRED_SUBMAP 1   /**< a submap, rigid in another one from now on */
+
+/** What has left the sliding window. The pose of a keyframe is for ever
+ *  T_world_submap * T_submap_kf, with the pose unisim_get_submap() gives for its submap at that
+ *  time. When neighbours of the skeleton merge, one of them is rigid in the other from then on:
+ *  T_world_submap = T_world_anchor * T_anchor_submap. A host that keeps both kinds finds every
+ *  pose by following anchors, also of keyframes and submaps that the session keeps no longer. */
+typedef struct unisim_retired {
+  uint32_t struct_size; /**< sizeof this struct, set by the caller */
+  int32_t kind;         /**< UNISIM_RETIRED_* */
+  int32_t keyframe_id;  /**< -1 for a submap */
+  int32_t submap_id;    /**< that carries the keyframe, or that has become rigid */
+  int32_t anchor_id;    /**< submap that carries the submap, -1 for a keyframe */
+  int32_t confidence;   /**< as in unisim_pose, 0 for a submap */
+  int32_t segment;      /**< as in unisim_pose */
+  int32_t reserved;     /**< 0 */
+  int64_t timestamp_ns; /**< of the keyframe, 0 for a submap */
+  unisim_sim3 T;        /**< T_submap_kf or T_anchor_submap, scale included */
+} unisim_retired;
+
+/** Take what has left the window since the last call, each once: keyframes in order, then submaps.
+ *  Call it until it says UNISIM_ERR_NOT_READY, after each unisim_add_submap(). What is not asked
+ *  for before it makes room is lost: unisim_session_info.retired_unread counts it.
+ *  @param session live session
+ *  @param[out] retired filled on success
+ *  @return UNISIM_OK, UNISIM_ERR_NOT_READY when there is nothing new, UNISIM_ERR_INVALID_ARGUMENT
+ */
+UNISIM_API UNISIM_NODISCARD unisim_status unisim_next_retired(unisim_session* session,
+                                                              unisim_retired* retired);
+
+/** States of a loop. */
+#define UNISIM_LOOP_ACTIVE 0    /**< holds the map, as far as its robust weight lets it */
+#define UNISIM_LOOP_SUSPENDED 1 /**< does not agree with the map; tried again later */
+#define UNISIM_LOOP_RIGID 2     /**< both its places have become one */
+#define UNISIM_LOOP_REMOVED 3   /**< by unisim_remove_loop(), or dropped to stay within memory */
+
+/** How a loop stands. */
+typedef struct unisim_loop_info {
+  uint32_t struct_size; /**< sizeof this struct, set by the caller */
+  int32_t submap_id;    /**< as unisim_add_loop() gave it */
+  int32_t state;        /**< UNISIM_LOOP_* */
+  int32_t condensed; /**< 1: its keyframes have left the window, it is one edge; loops between the
+                          same places that agree share one */
+  double residual;   /**< whitened, after the last unisim_optimize(); good ones are near 0.01 */
+} unisim_loop_info;
+
+/** How a loop stands. A loop whose residual stays beyond unisim_config.loop_gate for five
+ *  optimisations is suspended: it no longer pulls. After ten optimisations, then twice as many, its
+ *  residual on the map as it is then decides whether it is back. The log says each with its reason,
+ *  unisim_get_info() counts them.
+ *  @param session live session
+ *  @param submap_id as unisim_add_loop() gave it
+ *  @param[out] info filled on success
+ *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT (not a loop), UNISIM_ERR_RETIRED */
+UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_loop(const unisim_session* session,
+                                                          int32_t submap_id,
+                                                          unisim_loop_info* info);
+
+/** Take a loop back; with it those that share its edge. What it joined stays where it is, but is
+ *  held together no longer.
+ *  @param session live session
+ *  @param submap_id as unisim_add_loop() gave it
+ *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT (not a loop, removed before), UNISIM_ERR_RETIRED
+ *          (too old to be known by its id) */
+UNISIM_API UNISIM_NODISCARD unisim_status unisim_remove_loop(unisim_session* session,
+                                                             int32_t submap_id);
 
 /** A submap as the graph holds it. */
 typedef struct unisim_submap_info {
@@ -459,29 +538,39 @@ typedef struct unisim_submap_info {
  *  @param session live session
  *  @param submap_id as unisim_add_submap() gave it
  *  @param[out] info filled on success
- *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT */
+ *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT, UNISIM_ERR_RETIRED (no longer kept) */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_submap(const unisim_session* session,
                                                             int32_t submap_id,
                                                             unisim_submap_info* info);
 
 /** Where the session stands. */
 typedef struct unisim_session_info {
-  uint32_t struct_size;    /**< sizeof this struct, set by the caller */
-  int32_t state;           /**< UNISIM_STATE_* now */
-  int32_t keyframes;       /**< added */
-  int32_t posed_keyframes; /**< with a pose that a prediction supports */
-  int32_t last_posed;      /**< newest keyframe with a pose, -1 if none: the live pose */
-  int32_t submaps;         /**< in the graph, loops not counted */
-  int32_t submaps_refused; /**< by the gates, updates included */
-  int32_t loops;           /**< loop submaps in the graph */
-  int32_t loops_refused;   /**< by the gates, updates included */
-  int32_t pairs_refused;   /**< by the session's gates or by unisim_reject_request() */
-  int32_t segments;        /**< without a common frame */
-  int32_t lost_events;     /**< times the state fell to LOST */
-  int32_t map_revision;    /**< see unisim_report */
-  int32_t reserved;        /**< 0 */
-  size_t arena_bytes;      /**< handed over */
-  size_t arena_peak_bytes; /**< most ever in use */
+  uint32_t struct_size;      /**< sizeof this struct, set by the caller */
+  int32_t state;             /**< UNISIM_STATE_* now */
+  int32_t keyframes;         /**< added */
+  int32_t posed_keyframes;   /**< with a pose that a prediction supports */
+  int32_t last_posed;        /**< newest keyframe with a pose, -1 if none: the live pose */
+  int32_t submaps;           /**< in the graph, loops not counted */
+  int32_t submaps_refused;   /**< by the gates, updates included */
+  int32_t loops;             /**< loop submaps in the graph */
+  int32_t loops_refused;     /**< by the gates, updates included */
+  int32_t pairs_refused;     /**< by the session's gates or by unisim_reject_request() */
+  int32_t segments;          /**< without a common frame */
+  int32_t lost_events;       /**< times the state fell to LOST */
+  int32_t map_revision;      /**< see unisim_report */
+  int32_t reserved;          /**< 0 */
+  size_t arena_bytes;        /**< handed over */
+  size_t arena_peak_bytes;   /**< most ever in use */
+  int32_t first_keyframe;    /**< oldest keyframe that can still be read */
+  int32_t retired_keyframes; /**< that have left the sliding window */
+  int32_t retired_unread;    /**< gone before unisim_next_retired() was asked for them */
+  int32_t stretches;         /**< of keyframes closed by their pairs because no window came */
+  int32_t suspended_loops;   /**< now */
+  int32_t loop_suspensions;  /**< so far */
+  int32_t loop_returns;      /**< suspended ones that agreed again */
+  int32_t loops_removed;     /**< by unisim_remove_loop() */
+  int32_t loops_dropped;     /**< to stay within memory: others say much the same */
+  int32_t reserved_2;        /**< 0 */
 } unisim_session_info;
 
 /** Read the counters.

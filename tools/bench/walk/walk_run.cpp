@@ -23,8 +23,9 @@ unisim_config config_for(const WalkSettings& settings, size_t loops) {
   if (unisim_config_init(&config, sizeof config) != UNISIM_OK) {
     throw replay::Failure(replay::kExitOther, "unisim_config_init failed: rebuild the program");
   }
-  config.max_keyframes = settings.keyframes;
-  config.max_loops = static_cast<int32_t>(loops);
+  const bool bounded = settings.window_submaps > 0 && settings.readable > 0;
+  config.max_keyframes = bounded ? settings.readable : settings.keyframes;
+  if (settings.window_submaps == 0) config.max_loops = static_cast<int32_t>(loops);
   config.window_submaps = settings.window_submaps;
   config.skeleton_capacity = settings.skeleton_capacity;
   config.depth_grid_width = simulator::kDepthWidth;
@@ -84,6 +85,7 @@ void Walker::take_windows() {
   while (settings_.submaps && session_.next_window(&first, &count)) {
     const simulator::Prediction window = predictor_.window(first, count);
     update(&result_.update_ms, [&] { session_.add_window(window); });
+    session_.read_retired();
   }
 }
 
@@ -94,7 +96,9 @@ void Walker::take_loops(int32_t keyframe) {
         simulator::Loop::first_around(next.query, settings_.keyframes) + simulator::kLoopHalf - 1;
     if (last > keyframe) return;
     const simulator::Prediction loop = predictor_.loop(next);
-    update(&result_.loop_update_ms, [&] { session_.add_loop(loop); });
+    bool taken = true;
+    update(&result_.loop_update_ms, [&] { taken = session_.add_loop(loop); });
+    if (!taken) ++result_.loops_out_of_reach;
   }
 }
 
@@ -118,6 +122,7 @@ WalkResult Walker::walk() {
   for (int32_t k = 0; k < settings_.keyframes; ++k) step(k);
   if (session_.close_window()) take_windows();
   session_.optimize(kFinalIterations);
+  session_.read_retired();
 
   Positions truth;
   for (const simulator::RigidPose& T : world_.T_world_kf) truth.push_back(T.t);
@@ -127,7 +132,11 @@ WalkResult Walker::walk() {
   result_.submaps_refused = info.submaps_refused;
   result_.loops = info.loops;
   result_.loops_refused = info.loops_refused;
+  result_.loop_suspensions = info.loop_suspensions;
+  result_.loop_returns = info.loop_returns;
+  result_.loops_dropped = info.loops_dropped;
   result_.arena_bytes = session_.arena_bytes();
+  result_.depth_bytes = session_.depth_bytes();
   result_.live_ate_m = ate(live_, truth);
   result_.ate_m = ate(positions(), truth);
   return result_;

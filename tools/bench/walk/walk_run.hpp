@@ -23,6 +23,7 @@ struct WalkSettings {
   int32_t iterations = 2;           ///< of the optimisation after a submap or loop
   int32_t window_submaps = 2;       ///< as in unisim_config; 0: the full batch
   int32_t skeleton_capacity = 128;  ///< as in unisim_config
+  int32_t readable = 0;             ///< keyframes that a sliding window keeps; 0: all of the walk
   bool batch = true;                ///< walk once more as a full batch, to compare with
 };
 
@@ -33,7 +34,12 @@ struct WalkResult {
   int32_t submaps_refused = 0;
   int32_t loops = 0;
   int32_t loops_refused = 0;
+  int32_t loops_out_of_reach = 0;  ///< a place was no longer kept
+  int32_t loop_suspensions = 0;
+  int32_t loop_returns = 0;
+  int32_t loops_dropped = 0;
   size_t arena_bytes = 0;
+  size_t depth_bytes = 0;  ///< of them for depth maps
   int64_t heap_calls = 0;  ///< inside the library, after the session was made
   std::vector<double> update_ms;
   std::vector<double> loop_update_ms;

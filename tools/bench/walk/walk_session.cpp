@@ -24,6 +24,17 @@ unisim_depth_map to_c(const simulator::DepthMap& depth) {
   return {depth.data(), nullptr, simulator::kDepthWidth, simulator::kDepthHeight};
 }
 
+size_t depth_bytes_of(const unisim_config& config) {
+  constexpr size_t kMostParts = 32;
+  unisim_arena_part parts[kMostParts];
+  size_t count = 0;
+  if (unisim_arena_parts(&config, parts, kMostParts, &count) != UNISIM_OK) return 0;
+  for (size_t k = 0; k < count; ++k) {
+    if (std::string(parts[k].name) == "depth") return parts[k].bytes;
+  }
+  return 0;
+}
+
 }  // namespace
 
 WalkSession::WalkSession(const unisim_config& config, const pipeline::HeapWatch& heap)
@@ -31,6 +42,7 @@ WalkSession::WalkSession(const unisim_config& config, const pipeline::HeapWatch&
   size_t bytes = 0;
   expect_ok(unisim_arena_size(&config, &bytes), "unisim_arena_size");
   arena_.resize(bytes);
+  depth_bytes_ = depth_bytes_of(config);
   expect_ok(unisim_session_create(&session_, &config, arena_.data(), arena_.size()),
             "unisim_session_create");
   poses_.reserve(UNISIM_MAX_VIEWS);
@@ -101,11 +113,14 @@ void WalkSession::add_window(const simulator::Prediction& window) {
   expect_ok(unisim_add_submap(session_, &submap, &id), "unisim_add_submap");
 }
 
-void WalkSession::add_loop(const simulator::Prediction& loop) {
+bool WalkSession::add_loop(const simulator::Prediction& loop) {
   const unisim_submap submap = describe(loop);
   int32_t id = -1;
   const pipeline::InsideLibrary inside(heap_);
-  expect_ok(unisim_add_loop(session_, &submap, &id), "unisim_add_loop");
+  const unisim_status status = unisim_add_loop(session_, &submap, &id);
+  if (status == UNISIM_ERR_RETIRED) return false;
+  expect_ok(status, "unisim_add_loop");
+  return true;
 }
 
 void WalkSession::optimize(int32_t iterations) {
@@ -117,7 +132,11 @@ void WalkSession::optimize(int32_t iterations) {
 Eigen::Vector3d WalkSession::position(int32_t keyframe) const {
   unisim_pose pose{};
   pose.struct_size = sizeof pose;
-  expect_ok(unisim_get_pose(session_, keyframe, &pose), "unisim_get_pose");
+  unisim_status status = unisim_get_pose(session_, keyframe, &pose);
+  if (status == UNISIM_ERR_RETIRED && book_.find(session_, keyframe, &pose.T_world_kf)) {
+    status = UNISIM_OK;
+  }
+  expect_ok(status, "unisim_get_pose");
   return Eigen::Map<const Eigen::Vector3d>(pose.T_world_kf.t);
 }
 

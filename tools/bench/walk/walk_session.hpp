@@ -9,6 +9,7 @@
 
 #include "drivers/pipeline/heap_watch.hpp"
 #include "tools/bench/simulator/predictor.hpp"
+#include "tools/bench/walk/pose_book.hpp"
 #include "unisim/unisim.h"
 
 namespace unisim::bench {
@@ -23,6 +24,8 @@ class WalkSession {
   WalkSession& operator=(const WalkSession&) = delete;
 
   size_t arena_bytes() const { return arena_.size(); }
+  /// Of them for depth maps.
+  size_t depth_bytes() const { return depth_bytes_; }
   void add_keyframe();
   void add_pair(const simulator::Prediction& pair);
   /// Keyframes of the oldest window asked for. @return false when there is none
@@ -30,8 +33,11 @@ class WalkSession {
   /// Ask for the last, shorter window. @return false when no keyframes are left over
   bool close_window();
   void add_window(const simulator::Prediction& window);
-  void add_loop(const simulator::Prediction& loop);
+  /// @return false when a place is no longer kept
+  bool add_loop(const simulator::Prediction& loop);
   void optimize(int32_t iterations);
+  /// Take what has left the window, to know its position for ever.
+  void read_retired() { book_.read(session_); }
   Eigen::Vector3d position(int32_t keyframe) const;
   unisim_session_info info() const;
 
@@ -40,8 +46,10 @@ class WalkSession {
   unisim_submap describe(const simulator::Prediction& prediction);
 
   std::vector<unsigned char> arena_;
+  size_t depth_bytes_ = 0;
   unisim_session* session_ = nullptr;
   const pipeline::HeapWatch& heap_;
+  PoseBook book_;
   int64_t keyframes_ = 0;
   std::vector<unisim_sim3> poses_;
   std::vector<unisim_depth_map> maps_;
