@@ -4,8 +4,8 @@
 
     measure.py FILE.onnx [--views 2,16] [--threads 1] [--repeat 3]
 
-Prints the least CPU time of the calls after the first, and the peak memory of the process: what
-Python and the runtime take (about 60 MB) is in it."""
+Prints the least CPU time of the calls after the first, and the peak memory of the process,
+Python and the runtime included."""
 
 import argparse
 import resource
