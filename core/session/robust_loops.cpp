@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/math.hpp"
 #include "core/depth/nth_element.hpp"
 #include "core/session.hpp"
 
@@ -97,7 +98,7 @@ void Session::suspend_edges(const Submap& loop, bool suspended) {
 /// While it was suspended the map went on: it sits on its origin again.
 void Session::place_again(Submap* loop) {
   if (!keyframes_.has(loop->origin_keyframe)) return;
-  const double unit = std::exp(-submaps_.view(*loop, loop->origin).log_rho);
+  const double unit = math::exp(-submaps_.view(*loop, loop->origin).log_rho);
   holds(graph_.set_pose(loop->node, keyframe_pose(loop->origin_keyframe) * Sim3::scaling(unit)));
 }
 
