@@ -83,6 +83,19 @@ Status Session::add_two_view(const TwoViewInput& input) {
       line.send(config_.log, LogLevel::kWarning);
     }
   }
+  // Depth that leaps by many orders of magnitude, again and again, leaves the range of numbers.
+  const int32_t source = keyframes_.pose_source(input.i);
+  const Sim3 T_world_i = source >= 0 ? keyframe_pose(source) : Sim3();
+  const Sim3 unit = Sim3::scaling(std::exp(log_ratio));
+  const bool in_range = (T_world_i * unit * input.T_i_j).valid() && (unit * input.T_i_j).valid() &&
+                        (T_world_i * input.T_i_j).valid();
+  if (!in_range) {
+    LogLine line;
+    line << "pair " << input.i << "," << input.j << " refused: its scale is out of range";
+    line.send(config_.log, LogLevel::kWarning);
+    refuse_pair(input.j);
+    return Status::kOk;
+  }
   accept_pair(input, log_ratio, multiplier);
   make_node_room();
   return broken_ ? Status::kInternal : Status::kOk;

@@ -64,7 +64,7 @@ bool RandomCaller::add_keyframe() {
   const unisim_status status = unisim_add_keyframe(session_, &keyframe, &id);
   note(status);
   if (status == UNISIM_OK) ++keyframes_;
-  return status != UNISIM_ERR_CAPACITY;
+  return status != UNISIM_ERR_CAPACITY && status != UNISIM_ERR_INTERNAL;
 }
 
 void RandomCaller::add_pair(const unisim_request& request) {
