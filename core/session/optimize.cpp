@@ -10,6 +10,8 @@ namespace {
 
 // Smaller moves are the solver's tolerance on a converged map: keyframe's unit, rad, log-scale.
 constexpr double kLeastMove = 1e-4;
+// Poses that would move less stay where they are, and the solver leaves alone what only they see.
+constexpr double kStillMove = 1e-6;
 
 bool moved(const Sim3& before, const Sim3& after) {
   return sim3_log(between(before, after)).cwiseAbs().maxCoeff() > kLeastMove;
@@ -40,6 +42,7 @@ Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
   for (int32_t node = 0; node < graph_.node_end(); ++node) before_[node] = graph_.pose(node);
   LmOptions options;
   options.max_iterations = max_iterations > 0 ? max_iterations : config_.max_iterations;
+  options.least_move = kStillMove;
   Status status = Status::kOk;
   do {
     if (!holds(gauge_.apply(&graph_))) return Status::kInternal;
