@@ -69,7 +69,7 @@ GraphCapacity condenser_capacity(int32_t w) {
 constexpr int32_t kWaitingWindows = 8;
 constexpr int32_t kMostLiveLoops = 12;
 /// Loop edges per skeleton node: more of them add fill-in and next to no accuracy (README.md).
-constexpr double kLoopEdgesPerNode = 0.75;
+constexpr double kLoopEdgesPerNode = 1.5;
 /// Factor blocks per skeleton node; where loops tangle more than that, the weakest give way.
 constexpr int32_t kBlocksPerSkeletonNode = 24;
 
