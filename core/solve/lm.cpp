@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kLowestLambda = 1e-12;
 constexpr double kHighestLambda = 1e12;
+// An order that was renewed in parts is given up when it fills this much more than a whole one.
+constexpr double kWornOrder = 1.25;
 constexpr int kLogScale = 6;
 
 bool valid_options(const LmOptions& o) {
@@ -77,30 +79,35 @@ Status LevenbergMarquardt::prepare(const Graph& graph, const LmObserver& observe
   if (graph.structure_revision() == structure_revision_) return Status::kOk;
   structure_revision_ = 0;
   undamped_revision_ = 0;
-  tell(observer, LmPhase::kOrder, LmReport());
-  Status status = Status::kOk;
-  if (known && reorder_changed(graph)) {
-    tell(observer, LmPhase::kAnalyze, LmReport());
-    status = cholesky_.reanalyze(pattern_.column_start(), pattern_.rows());
-  } else {
-    status = pattern_.build(graph);
+  if (!known || !reorder_changed(graph, observer)) {
+    tell(observer, LmPhase::kOrder, LmReport());
+    Status status = pattern_.build(graph);
     if (!is_ok(status)) return status;
     tell(observer, LmPhase::kAnalyze, LmReport());
     status = cholesky_.analyze(pattern_.column_start(), pattern_.rows());
+    if (!is_ok(status)) return status;
+    fill_ = fill_per_column();
     graph.forget_changes();
   }
-  if (is_ok(status)) structure_revision_ = graph.structure_revision();
-  return status;
+  structure_revision_ = graph.structure_revision();
+  return Status::kOk;
 }
 
-// @return false when a new order of all columns is as cheap
-bool LevenbergMarquardt::reorder_changed(const Graph& graph) {
+double LevenbergMarquardt::fill_per_column() const {
+  return static_cast<double>(cholesky_.needed_blocks()) / pattern_.columns();
+}
+
+// @return false when a new order of all columns is as cheap, or better in the long run
+bool LevenbergMarquardt::reorder_changed(const Graph& graph, const LmObserver& observer) {
+  if (fill_per_column() > kWornOrder * fill_) return false;
+  tell(observer, LmPhase::kOrder, LmReport());
   const KeptOrder kept = cholesky_.keep();
   if (2 * kept.columns.size() < pattern_.columns()) return false;
   if (!is_ok(pattern_.rebuild(graph, kept))) return false;
+  tell(observer, LmPhase::kAnalyze, LmReport());
   equations_.keep(kept.columns);
   for (int32_t i = 0; i < kept.columns.size(); ++i) forward_[i] = forward_[kept.columns[i]];
-  return true;
+  return is_ok(cholesky_.reanalyze(pattern_.column_start(), pattern_.rows()));
 }
 
 double LevenbergMarquardt::linearize(const Graph& graph) {

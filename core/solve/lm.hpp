@@ -72,7 +72,8 @@ class LevenbergMarquardt {
   double linearize(const Graph& graph);
   void note_changes(const Graph& graph);
   Status prepare(const Graph& graph, const LmObserver& observer);
-  bool reorder_changed(const Graph& graph);
+  bool reorder_changed(const Graph& graph, const LmObserver& observer);
+  double fill_per_column() const;
   LmStop iterate(Graph* graph, const LmOptions& options, LmReport* report);
   Status factorize(double lambda);
   bool find_step(const LmOptions& options, const LmReport& report);
@@ -87,6 +88,7 @@ class LevenbergMarquardt {
   Span<BlockVector> forward_;  // L^-1 (-g)
   Span<BlockVector> step_;
   Span<Sim3> saved_;
+  double fill_ = 0.0;                // blocks per column of the last order of all columns
   double step_size_ = 0.0;           // largest component of step_
   double shortened_ = 1.0;           // factor by which step_ is shorter than the solution
   uint64_t structure_revision_ = 0;  // of the analysed graph
