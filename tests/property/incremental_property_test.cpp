@@ -19,9 +19,7 @@ const SolverCapacity kSolver = {kNodes, kEdges, kEdges, 3000};
 // measurements now and then. Measurements are exact but for a small error.
 struct Twins {
   explicit Twins(uint32_t seed)
-      : random(seed),
-        one({kNodes, kEdges, 2 * kEdges, 0}),
-        other({kNodes, kEdges, 2 * kEdges, 0}) {
+      : random(seed), one({kNodes, kEdges, 2 * kEdges, 0}), other({kNodes, kEdges, 2 * kEdges, 0}) {
     add_node();
     both([](Graph& graph) { REQUIRE(graph.set_fixed(0, true) == Status::kOk); });
   }
