@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Models of kind descriptor: one image in, one vector of unit length out.
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "drivers/onnx/error.hpp"
+#include "drivers/onnx/creation.hpp"
 #include "drivers/onnx/model.hpp"
 #include "drivers/onnx/onnx.h"
 #include "drivers/onnx/preprocessor.hpp"
@@ -61,9 +60,7 @@ unisim_onnx_descriptor* unisim_onnx_descriptor_open(const unisim_onnx_config* co
                                                     const char* path, int32_t* problem,
                                                     char* message, size_t capacity) {
   namespace o = unisim::onnx;
-  int32_t kind = UNISIM_ONNX_OK;
-  std::string line;
-  try {
+  return o::create(problem, message, capacity, [&]() {
     const o::RunOptions run = o::read_run_options(*config);
     auto made = std::make_unique<unisim_onnx_descriptor>();
     made->model = std::make_unique<o::Model>(o::Runtime::open(run.library), path, run);
@@ -73,18 +70,8 @@ unisim_onnx_descriptor* unisim_onnx_descriptor_open(const unisim_onnx_config* co
     }
     made->model->warm_up(1, 1, run.memory_bytes);
     made->values.resize(made->model->descriptor().size());
-    if (problem != nullptr) *problem = kind;
     return made.release();
-  } catch (const o::OnnxError& error) {
-    kind = error.problem();
-    line = error.what();
-  } catch (const std::exception& error) {
-    kind = UNISIM_ONNX_NO_MEMORY;
-    line = std::string("onnx: ") + error.what();
-  }
-  if (problem != nullptr) *problem = kind;
-  if (message != nullptr && capacity > 0) std::snprintf(message, capacity, "%s", line.c_str());
-  return nullptr;
+  });
 }
 
 int32_t unisim_onnx_descriptor_size(const unisim_onnx_descriptor* descriptor) {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "drivers/onnx/config.hpp"
-#include "drivers/onnx/error.hpp"
+#include "drivers/onnx/creation.hpp"
 #include "drivers/onnx/models.hpp"
 #include "drivers/onnx/onnx.h"
 #include "drivers/onnx/role.hpp"
@@ -191,26 +191,14 @@ void destroy(unisim_predictor* predictor) { delete self(predictor); }
 unisim_predictor* unisim_onnx_create(const unisim_onnx_config* config, int32_t* problem,
                                      char* message, size_t capacity) {
   namespace o = unisim::onnx;
-  int32_t kind = UNISIM_ONNX_OK;
-  std::string line;
-  try {
+  return o::create(problem, message, capacity, [&]() {
     auto made = std::make_unique<o::OnnxPredictor>();
     made->config = o::read_config(*config);
     made->models = o::load_models(made->config);
     made->table = {"onnx",  1,       o::observe, o::keyframe, o::two_view, o::multi_view,
                    nullptr, nullptr, nullptr,    o::info,     o::message,  o::destroy};
-    if (problem != nullptr) *problem = kind;
     return &made.release()->table;
-  } catch (const o::OnnxError& error) {
-    kind = error.problem();
-    line = error.what();
-  } catch (const std::exception& error) {
-    kind = UNISIM_ONNX_NO_MEMORY;
-    line = std::string("onnx: ") + error.what();
-  }
-  if (problem != nullptr) *problem = kind;
-  if (message != nullptr && capacity > 0) std::snprintf(message, capacity, "%s", line.c_str());
-  return nullptr;
+  });
 }
 
 int32_t unisim_onnx_window_size(const unisim_predictor* predictor) {
