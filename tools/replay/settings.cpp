@@ -49,6 +49,9 @@ void add_session_fields(unisim_config* c, std::vector<Field>* fields) {
                                  {s, "sigma_gate", &c->sigma_gate},
                                  {s, "sigma_gate_loop", &c->sigma_gate_loop},
                                  {s, "scatter_gate", &c->scatter_gate},
+                                 {s, "loop_gate", &c->loop_gate},
+                                 {s, "window_submaps", &c->window_submaps},
+                                 {s, "skeleton_capacity", &c->skeleton_capacity},
                                  {s, "lost_after", &c->lost_after},
                                  {s, "max_iterations", &c->max_iterations}});
 }
