@@ -98,36 +98,35 @@ void BlockCholesky::choose_supernodes(Span<const int32_t> count, int32_t kept) {
   first_column_[supernodes_] = columns_;
 }
 
+int32_t BlockCholesky::block_count(int32_t s) const {
+  const int32_t width = first_column_[s + 1] - first_column_[s];
+  return triangle(width) + width * (row_start_[s + 1] - row_start_[s]);
+}
+
 // @return false when the blocks do not fit
 bool BlockCholesky::place_supernodes(Span<const int32_t> count, int32_t kept) {
   row_start_[0] = 0;
   const Span<int32_t> fill = position_;
-  int64_t fresh = 0;
   for (int32_t s = 0; s < supernodes_; ++s) {
-    const int32_t width = first_column_[s + 1] - first_column_[s];
-    const int32_t below = count[first_column_[s + 1] - 1];
-    row_start_[s + 1] = row_start_[s] + below;
+    row_start_[s + 1] = row_start_[s] + count[first_column_[s + 1] - 1];
     fill[s] = row_start_[s];
-    if (s >= kept) fresh += triangle(width) + width * below;
   }
   visit_rows([&](int32_t row, int32_t column) {
     const int32_t s = of_column_[column];
     if (column + 1 == first_column_[s + 1]) rows_[fill[s]++] = row;
   });
-  const auto blocks = [&](int32_t s) {
-    const int32_t width = first_column_[s + 1] - first_column_[s];
-    return triangle(width) + width * (row_start_[s + 1] - row_start_[s]);
-  };
+  int64_t fresh = 0;
+  for (int32_t s = kept; s < supernodes_; ++s) fresh += block_count(s);
   int32_t end = 0;
   for (int32_t s = 0; s < kept; ++s) {
     block_start_[s] = kept_block_start_[s];
-    end = block_start_[s] + blocks(s);
+    end = block_start_[s] + block_count(s);
   }
   if (end + fresh > blocks_.size()) end = pack_kept(kept);
   if (end + fresh > blocks_.size()) return false;
   for (int32_t s = kept; s < supernodes_; ++s) {
     block_start_[s] = end;
-    end += blocks(s);
+    end += block_count(s);
   }
   return true;
 }
@@ -136,8 +135,7 @@ bool BlockCholesky::place_supernodes(Span<const int32_t> count, int32_t kept) {
 int32_t BlockCholesky::pack_kept(int32_t kept) {
   int32_t end = 0;
   for (int32_t s = 0; s < kept; ++s) {
-    const int32_t width = first_column_[s + 1] - first_column_[s];
-    const int32_t count = triangle(width) + width * (row_start_[s + 1] - row_start_[s]);
+    const int32_t count = block_count(s);
     std::memmove(static_cast<void*>(&blocks_[end]), &blocks_[block_start_[s]],
                  static_cast<size_t>(count) * sizeof(Block));
     block_start_[s] = end;
@@ -259,8 +257,7 @@ void BlockCholesky::clear_stale() {
       begin = block_start_[s];
       end = begin;
     }
-    const int32_t width = first_column_[s + 1] - first_column_[s];
-    end += triangle(width) + width * (row_start_[s + 1] - row_start_[s]);
+    end += block_count(s);
   }
   clear();
 }

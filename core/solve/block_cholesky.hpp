@@ -90,6 +90,7 @@ class BlockCholesky {
   void locate_blocks(Span<const int32_t> column_start, Span<const int32_t> rows);
   Supernodes supernodes() const;
   int32_t parent_supernode(int32_t s) const;
+  int32_t block_count(int32_t s) const;
 
   SolverCapacity capacity_;
   int32_t columns_ = 0;

@@ -2,24 +2,19 @@
 // Dense kernels on padded 7x7 blocks. No heap, no branches on data but the pivot test.
 #pragma once
 
+#include "core/base/pack.hpp"
 #include "core/solve/block.hpp"
 
 namespace unisim {
 namespace UNISIM_ISA {
 
-// Doubles the vector unit of this build handles at once. Each element is computed by the same
-// operations in the same order whatever the width.
-#if defined(__AVX__)
-inline constexpr int kLane = 4;
-#else
-inline constexpr int kLane = 2;
-#endif
+inline constexpr int kLane = kPackLanes;  // doubles in a lane
 inline constexpr int kLanes = kBlockRows / kLane;
 
 // Keeps what the loops index in registers.
 #define UNISIM_UNROLL _Pragma("GCC unroll 8")
 
-using Lane = double __attribute__((vector_size(kLane * sizeof(double))));
+using Lane = Pack;
 
 UNISIM_ALWAYS_INLINE Lane* lanes(double* column) { return reinterpret_cast<Lane*>(column); }
 UNISIM_ALWAYS_INLINE const Lane* lanes(const double* column) {
