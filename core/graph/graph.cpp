@@ -112,7 +112,7 @@ Status Graph::set_fixed(int32_t id, bool fixed) {
   if (!has_node(id)) return Status::kInvalidArgument;
   if (nodes_[id].fixed == fixed) return Status::kOk;
   nodes_[id].fixed = fixed;
-  changes_[id] |= kNodeMoved | kNodeRelinked;
+  changes_[id] |= kNodeHeld | kNodeRelinked;
   structure_changed();
   return Status::kOk;
 }

@@ -24,8 +24,9 @@ struct GraphCapacity {
 
 /// Bits of what happened to a node.
 enum NodeChange : uint8_t {
-  kNodeMoved = 1,    ///< its pose: what its edges say has changed at both ends
-  kNodeRelinked = 2  ///< an edge of it came, went or got other numbers; or it was held or released
+  kNodeMoved = 1,     ///< its pose: what its edges say has changed at both ends
+  kNodeRelinked = 2,  ///< an edge of it came, went or got other numbers
+  kNodeHeld = 4       ///< it was held or released: what its edges add to the system has changed
 };
 
 /// What every edge is given besides its measurement.

@@ -23,4 +23,7 @@ struct RobustCost {
 /// @param u_squared square of the whitened norm u = sqrt(w) |e|
 RobustCost robust_cost(const RobustKernel& kernel, double u_squared);
 
+/// The IRLS weight where the cost is rho(u) = `cost`.
+double robust_weight(const RobustKernel& kernel, double cost);
+
 }  // namespace unisim

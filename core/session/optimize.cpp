@@ -12,6 +12,8 @@ namespace {
 constexpr double kLeastMove = 1e-4;
 // Poses that would move less stay where they are, and the solver leaves alone what only they see.
 constexpr double kStillMove = 1e-6;
+// Edges that change less keep their part of H: share of their length, rad, log-scale.
+constexpr double kRelinearize = 1e-2;
 
 bool moved(const Sim3& before, const Sim3& after) {
   return sim3_log(between(before, after)).cwiseAbs().maxCoeff() > kLeastMove;
@@ -43,6 +45,7 @@ Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
   LmOptions options;
   options.max_iterations = max_iterations > 0 ? max_iterations : config_.max_iterations;
   options.least_move = kStillMove;
+  options.relinearize = kRelinearize;
   Status status = Status::kOk;
   do {
     if (!holds(gauge_.apply(&graph_))) return Status::kInternal;

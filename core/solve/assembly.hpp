@@ -8,16 +8,23 @@
 
 namespace unisim {
 
-/// Of the diagonal blocks only the lower triangles count. Columns that are not stale hold a part of
-/// the factor and are not to be written.
+/// How far a supernode is behind its graph.
+enum class Staleness : uint8_t {
+  kNone,
+  kRightSide,  ///< the gradient has changed there or below it in the tree
+  kFactor      ///< and so has H
+};
+
+/// Of the diagonal blocks only the lower triangles count. Other columns than the wanted ones hold a
+/// part of the factor and are not to be written.
 struct Assembly {
   Block* blocks;
   const int32_t* diagonal;      ///< column -> its block
   const int32_t* off_diagonal;  ///< slot of the BlockPattern -> its block
   const int32_t* of_column;     ///< column -> supernode
-  const uint8_t* stale;         ///< supernode -> 1: H is wanted there
+  const Staleness* stale;       ///< by supernode; kFactor: H is wanted there
 
-  bool wants(int32_t column) const { return stale[of_column[column]] != 0; }
+  bool wants(int32_t column) const { return stale[of_column[column]] == Staleness::kFactor; }
 };
 
 }  // namespace unisim

@@ -20,7 +20,7 @@ BlockCholesky::BlockCholesky(Arena& arena, const SolverCapacity& capacity)
       block_start_(arena.take<int32_t>(capacity.nodes + 1)),
       diagonal_(arena.take<int32_t>(capacity.nodes)),
       off_diagonal_(arena.take<int32_t>(capacity.pairs)),
-      stale_(arena.take<uint8_t>(capacity.nodes)),
+      stale_(arena.take<Staleness>(capacity.nodes)),
       fresh_(arena.take<uint8_t>(capacity.nodes)),
       moves_(arena.take<uint8_t>(capacity.nodes)),
       H_diagonal_(arena.take<BlockVector>(capacity.nodes)),
@@ -167,7 +167,7 @@ KeptOrder BlockCholesky::keep() {
   int32_t columns = 0;
   kept_row_start_[0] = 0;
   for (int32_t s = 0; s < supernodes_; ++s) {
-    if (stale_[s] != 0) continue;
+    if (stale_[s] == Staleness::kFactor) continue;
     kept_width_[kept_] = first_column_[s + 1] - first_column_[s];
     kept_block_start_[kept_] = block_start_[s];
     int32_t to = kept_row_start_[kept_];
@@ -209,7 +209,9 @@ Status BlockCholesky::analyze(Span<const int32_t> column_start, Span<const int32
   if (!place_supernodes(count, kept)) return Status::kCapacity;
   locate_blocks(column_start, rows);
   for (int32_t s = 0; s < kept; ++s) sort_kept_rows(s);
-  for (int32_t s = 0; s < supernodes_; ++s) stale_[s] = s < kept ? 0 : 1;
+  for (int32_t s = 0; s < supernodes_; ++s) {
+    stale_[s] = s < kept ? Staleness::kNone : Staleness::kFactor;
+  }
   return Status::kOk;
 }
 
@@ -233,14 +235,14 @@ void BlockCholesky::locate_blocks(Span<const int32_t> column_start, Span<const i
   }
 }
 
-void BlockCholesky::mark_stale(int32_t column) {
-  for (int32_t s = of_column_[column]; s != -1 && stale_[s] == 0; s = parent_supernode(s)) {
-    stale_[s] = 1;
+void BlockCholesky::mark_stale(int32_t column, Staleness staleness) {
+  for (int32_t s = of_column_[column]; s != -1 && stale_[s] < staleness; s = parent_supernode(s)) {
+    stale_[s] = staleness;
   }
 }
 
 void BlockCholesky::mark_all_stale() {
-  for (int32_t s = 0; s < supernodes_; ++s) stale_[s] = 1;
+  for (int32_t s = 0; s < supernodes_; ++s) stale_[s] = Staleness::kFactor;
 }
 
 void BlockCholesky::clear_stale() {
@@ -251,7 +253,7 @@ void BlockCholesky::clear_stale() {
     if (bytes > 0) std::memset(static_cast<void*>(&blocks_[begin]), 0, bytes);
   };
   for (int32_t s = 0; s < supernodes_; ++s) {
-    if (stale_[s] == 0) continue;
+    if (stale_[s] != Staleness::kFactor) continue;
     if (block_start_[s] != end) {
       clear();
       begin = block_start_[s];
@@ -282,8 +284,8 @@ Status BlockCholesky::factorize(double lambda, Span<BlockVector> x) {
     return Status::kNumerical;
   }
   for (int32_t s = 0; s < supernodes_; ++s) {
-    fresh_[s] = stale_[s];
-    stale_[s] = 0;
+    fresh_[s] = stale_[s] == Staleness::kNone ? 0 : 1;
+    stale_[s] = Staleness::kNone;
   }
   return Status::kOk;
 }

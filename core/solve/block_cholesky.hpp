@@ -33,19 +33,21 @@ class BlockCholesky {
   /// many
   Status analyze(Span<const int32_t> column_start, Span<const int32_t> rows);
 
-  /// What of the order and of L stays when the structure changes: all that is not stale. To be
+  /// What of the order and of L stays when the structure changes: all whose H has not. To be
   /// handed to BlockPattern::rebuild(), then to reanalyze(); nothing is factorised between.
   KeptOrder keep();
-  /// analyze() after a change of the structure. Kept columns keep their part of L, the others are
-  /// stale.
+  /// analyze() after a change of the structure. Kept columns keep their part of L and are not
+  /// stale, the others are.
   Status reanalyze(Span<const int32_t> column_start, Span<const int32_t> rows);
 
   /// Blocks of L, diagonal included, for the structure last handed to analyze().
   int64_t needed_blocks() const { return needed_blocks_; }
 
-  /// H has changed in this column: it and all above it in the tree will be factorised anew.
-  void mark_stale(int32_t column);
+  /// H has changed in this column: it and all above it in the tree will be factorised anew. Where
+  /// only the right-hand side has, L stays and x is computed anew.
+  void mark_stale(int32_t column, Staleness staleness = Staleness::kFactor);
   void mark_all_stale();
+  Staleness staleness(int32_t column) const { return stale_[of_column_[column]]; }
   /// Zero the blocks of stale columns, to assemble H anew there.
   void clear_stale();
   Assembly assembly() {
@@ -57,8 +59,8 @@ class BlockCholesky {
   /// @return kOk; kNumerical when a pivot is not finite or not above 1e-13 of its diagonal element:
   ///         bad_column() says where; there is no factor then and all columns are stale
   Status factorize(double lambda) { return factorize(lambda, Span<BlockVector>()); }
-  /// factorize(), and x := L^-1 x while L is at hand: backward() completes the solution. Where no
-  /// column is stale x is the result of the last time already, with the same right-hand side.
+  /// factorize(), and x := L^-1 x while L is at hand: backward() completes the solution. In columns
+  /// that are not stale at all x is the result of the last time already.
   Status factorize(double lambda, Span<BlockVector> x);
 
   /// Column of the pivot that made factorize() fail, -1 after a success.
@@ -105,8 +107,8 @@ class BlockCholesky {
   Span<int32_t> block_start_;
   Span<int32_t> diagonal_;  // see Assembly
   Span<int32_t> off_diagonal_;
-  Span<uint8_t> stale_;
-  Span<uint8_t> fresh_;  // stale before the last factorisation
+  Span<Staleness> stale_;
+  Span<uint8_t> fresh_;  // stale before the last factorisation, in any way
   Span<uint8_t> moves_;  // column -> an element of x is larger than asked for
   Span<BlockVector> H_diagonal_;
   int32_t kept_ = 0;           // supernodes of the last keep()

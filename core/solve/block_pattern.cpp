@@ -71,12 +71,24 @@ Status BlockPattern::build(const Graph& graph) {
 void BlockPattern::number_nodes(const Graph& graph) {
   columns_ = 0;
   column_of_node_.fill(-1);
-  for (int32_t id = 0; id < graph.node_end(); ++id) {
-    const Node& node = graph.node(id);
-    const bool free = node.alive && !node.fixed;
-    column_of_node_[id] = free ? columns_ : -1;
-    if (free) node_of_column_[columns_++] = id;
-  }
+  number_rest(graph);
+}
+
+// What is changed most often comes last, so that little lies above it: where there is a skeleton,
+// the nodes that are not of it.
+void BlockPattern::number_rest(const Graph& graph) {
+  const auto number = [&](bool skeleton) {
+    for (int32_t id = 0; id < graph.node_end(); ++id) {
+      const Node& node = graph.node(id);
+      if (!node.alive || node.fixed || column_of_node_[id] >= 0) continue;
+      if ((node.kind == NodeKind::kSkeleton) != skeleton) continue;
+      column_of_node_[id] = columns_;
+      node_of_column_[columns_++] = id;
+    }
+  };
+  number(true);
+  first_late_ = columns_;
+  number(false);
 }
 
 Status BlockPattern::rebuild(const Graph& graph, const KeptOrder& kept) {
@@ -104,12 +116,7 @@ void BlockPattern::number_kept_first(const Graph& graph, const KeptOrder& kept) 
   for (int32_t i = 0; i < columns_; ++i) node_of_column_[i] = node_of_column_[kept.columns[i]];
   column_of_node_.fill(-1);
   for (int32_t i = 0; i < columns_; ++i) column_of_node_[node_of_column_[i]] = i;
-  for (int32_t id = 0; id < graph.node_end(); ++id) {
-    const Node& node = graph.node(id);
-    if (!node.alive || node.fixed || column_of_node_[id] >= 0) continue;
-    column_of_node_[id] = columns_;
-    node_of_column_[columns_++] = id;
-  }
+  number_rest(graph);
 }
 
 // Edges are put in buckets by their smaller column, so that edges of one pair meet in one bucket.
@@ -170,7 +177,7 @@ void BlockPattern::order_columns() {
     adjacency_[fill[pair_a_[p]]++] = pair_b_[p];
     adjacency_[fill[pair_b_[p]]++] = pair_a_[p];
   }
-  minimum_degree_order(start, adjacency_.subspan(0, 2 * pairs_), work_,
+  minimum_degree_order(start, adjacency_.subspan(0, 2 * pairs_), first_late_, work_,
                        order_.subspan(0, columns_));
 }
 
@@ -216,7 +223,8 @@ bool BlockPattern::order_rest(const KeptOrder& kept) {
   });
   drop_doubles(start, adjacency_, work_);
   const Span<int32_t> order = order_.subspan(first, rest);
-  minimum_degree_order(start, adjacency_.subspan(0, start[rest]), work_, order);
+  minimum_degree_order(start, adjacency_.subspan(0, start[rest]), first_late_ - first, work_,
+                       order);
   for (int32_t& column : order) column += first;
   for (int32_t i = 0; i < first; ++i) order_[i] = i;
   return true;

@@ -61,6 +61,7 @@ class BlockPattern {
 
  private:
   void number_nodes(const Graph& graph);
+  void number_rest(const Graph& graph);
   void number_kept_first(const Graph& graph, const KeptOrder& kept);
   bool order_rest(const KeptOrder& kept);
   Status collect_pairs(const Graph& graph);
@@ -69,6 +70,7 @@ class BlockPattern {
 
   SolverCapacity capacity_;
   int32_t columns_ = 0;
+  int32_t first_late_ = 0;  // column, before ordering
   int32_t pairs_ = 0;
   Span<int32_t> column_of_node_;
   Span<int32_t> node_of_column_;

@@ -17,7 +17,7 @@ constexpr int kLogScale = 6;
 bool valid_options(const LmOptions& o) {
   return o.max_iterations >= 0 && o.initial_lambda > 0.0 && o.initial_lambda <= kHighestLambda &&
          o.cost_tolerance >= 0.0 && o.step_tolerance >= 0.0 && o.least_move >= 0.0 &&
-         o.max_log_scale_step > 0.0;
+         o.relinearize >= 0.0 && o.max_log_scale_step > 0.0;
 }
 
 void tell(const LmObserver& observer, LmPhase phase, const LmReport& report) {
@@ -53,24 +53,41 @@ LevenbergMarquardt::LevenbergMarquardt(Arena& arena, const SolverCapacity& capac
       step_(arena.take<BlockVector>(capacity.nodes)),
       saved_(arena.take<Sim3>(capacity.nodes)) {}
 
-// Marks the columns whose part of H has changed: those of changed nodes, and next to a node that
-// has moved.
+// Marks the columns whose part of the gradient has changed, those of changed nodes and next to a
+// node that has moved; and whose part of H has.
 void LevenbergMarquardt::note_changes(const Graph& graph) {
-  const auto mark = [&](int32_t node) {
-    const int32_t column = pattern_.column_of_node(node);
-    if (column >= 0) cholesky_.mark_stale(column);
-  };
   for (int32_t id = 0; id < graph.node_end(); ++id) {
-    if (graph.changes(id) != 0) mark(id);
+    const int32_t column = pattern_.column_of_node(id);
+    if (graph.changes(id) == 0 || column < 0) continue;
+    equations_.mark_changed(column);
+    if ((graph.changes(id) & kNodeRelinked) != 0) cholesky_.mark_stale(column);
   }
   for (int32_t id = 0; id < graph.edge_end(); ++id) {
     const Edge& edge = graph.edge(id);
-    if (!edge.alive) continue;
-    if (((graph.changes(edge.a) | graph.changes(edge.b)) & kNodeMoved) == 0) continue;
-    mark(edge.a);
-    mark(edge.b);
+    if (edge.alive && (graph.changes(edge.a) | graph.changes(edge.b)) != 0) {
+      note_changed_edge(graph, id);
+    }
   }
   graph.forget_changes();
+}
+
+void LevenbergMarquardt::note_changed_edge(const Graph& graph, int32_t id) {
+  const Edge& edge = graph.edge(id);
+  const uint8_t any = graph.changes(edge.a) | graph.changes(edge.b);
+  const bool moved = (any & kNodeMoved) != 0;
+  // An edge that is new or has new numbers has relinked both of its ends.
+  const bool renewed = (graph.changes(edge.a) & graph.changes(edge.b) & kNodeRelinked) != 0 ||
+                       (any & kNodeHeld) != 0;
+  if (!moved && !renewed) return;
+  const bool holds =
+      !renewed && relinearize_ > 0.0 && equations_.point_holds(graph, id, relinearize_);
+  if (!holds) equations_.forget_point(id);
+  for (const int32_t node : {edge.a, edge.b}) {
+    const int32_t column = pattern_.column_of_node(node);
+    if (column < 0) continue;
+    equations_.mark_changed(column);
+    if (!holds) cholesky_.mark_stale(column);
+  }
 }
 
 Status LevenbergMarquardt::prepare(const Graph& graph, const LmObserver& observer) {
@@ -87,6 +104,8 @@ Status LevenbergMarquardt::prepare(const Graph& graph, const LmObserver& observe
     status = cholesky_.analyze(pattern_.column_start(), pattern_.rows());
     if (!is_ok(status)) return status;
     fill_ = fill_per_column();
+    equations_.forget_points();
+    equations_.mark_all_changed();
     graph.forget_changes();
   }
   structure_revision_ = graph.structure_revision();
@@ -112,14 +131,24 @@ bool LevenbergMarquardt::reorder_changed(const Graph& graph, const LmObserver& o
 
 double LevenbergMarquardt::linearize(const Graph& graph) {
   note_changes(graph);
+  for (int32_t j = 0; j < pattern_.columns(); ++j) {
+    if (equations_.has_changed(j)) cholesky_.mark_stale(j, Staleness::kRightSide);
+  }
   cholesky_.clear_stale();
-  return equations_.linearize(graph, pattern_, cholesky_.assembly());
+  return equations_.linearize(graph, pattern_, cholesky_.assembly(), relinearize_ > 0.0);
+}
+
+double LevenbergMarquardt::linearize_all(const Graph& graph) {
+  cholesky_.mark_all_stale();
+  equations_.forget_points();
+  return linearize(graph);
 }
 
 Status LevenbergMarquardt::optimize(Graph* graph, const LmOptions& options, LmReport* report) {
   *report = LmReport();
   if (!valid_options(options)) return Status::kInvalidArgument;
   if (graph->edge_count() == 0) return Status::kNotReady;
+  relinearize_ = options.relinearize;
   const Status status = prepare(*graph, options.observer);
   report->factor_blocks = cholesky_.needed_blocks();
   if (!is_ok(status)) return status;
@@ -150,7 +179,7 @@ LmStop LevenbergMarquardt::iterate(Graph* graph, const LmOptions& options, LmRep
     if (!factored) {
       report->bad_node = pattern_.node_of_column(std::max(cholesky_.bad_column(), 0));
       tell(options.observer, LmPhase::kLinearize, *report);
-      linearize(*graph);
+      linearize_all(*graph);
       damping.reject();
       continue;
     }
@@ -178,8 +207,7 @@ LmStop LevenbergMarquardt::iterate(Graph* graph, const LmOptions& options, LmRep
       return LmStop::kConverged;
     }
     tell(options.observer, LmPhase::kLinearize, *report);
-    cholesky_.mark_all_stale();
-    linearize(*graph);
+    linearize_all(*graph);
     damping.reject();
   }
   return factored ? LmStop::kBudget : LmStop::kNotPositive;
@@ -188,9 +216,8 @@ LmStop LevenbergMarquardt::iterate(Graph* graph, const LmOptions& options, LmRep
 // Factorises H and brings L^-1 (-g) up to date.
 Status LevenbergMarquardt::factorize(double lambda) {
   const Span<const BlockVector> g = equations_.gradient();
-  const Assembly target = cholesky_.assembly();
   for (int32_t j = 0; j < pattern_.columns(); ++j) {
-    if (!target.wants(j)) continue;
+    if (cholesky_.staleness(j) == Staleness::kNone) continue;
     for (int d = 0; d < kBlockRows; ++d) forward_[j].v[d] = -g[j].v[d];
   }
   return cholesky_.factorize(lambda, forward_);
@@ -214,10 +241,7 @@ bool LevenbergMarquardt::find_step(const LmOptions& options, const LmReport& rep
     }
     log_scale = std::max(log_scale, std::abs(dx.v[kLogScale]));
   }
-  if (!finite) {
-    cholesky_.mark_all_stale();
-    return false;
-  }
+  if (!finite) return false;
   shortened_ = std::min(1.0, options.max_log_scale_step / log_scale);
   for (BlockVector& dx : step) {
     for (double& value : dx.v) value *= shortened_;
@@ -274,8 +298,7 @@ Status LevenbergMarquardt::marginal_covariance(const Graph& graph, int32_t node,
   if (!is_ok(status)) return status;
   if (undamped_revision_ != graph.revision()) {
     undamped_revision_ = 0;
-    cholesky_.mark_all_stale();
-    linearize(graph);
+    linearize_all(graph);
     status = factorize(0.0);
     if (!is_ok(status)) return status;
     undamped_revision_ = graph.revision();

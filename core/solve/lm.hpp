@@ -21,6 +21,8 @@ struct LmOptions {
   double step_tolerance = 1e-7;  ///< stop when no component of the step is larger
   double least_move = 0.0;       ///< nodes whose step has no larger component stay where they are:
                                  ///< what only they see is neither linearised nor factorised anew
+  double relinearize = 0.0;  ///< edges whose relative pose has changed by no more since they were
+                             ///< linearised keep their part of H; the gradient stays exact
   double max_log_scale_step = 1.0;  ///< larger log-scale: the whole step is shortened
   LmObserver observer;  ///< called on the caller's thread; may not touch the solver or the graph
 };
@@ -70,7 +72,9 @@ class LevenbergMarquardt {
 
  private:
   double linearize(const Graph& graph);
+  double linearize_all(const Graph& graph);
   void note_changes(const Graph& graph);
+  void note_changed_edge(const Graph& graph, int32_t id);
   Status prepare(const Graph& graph, const LmObserver& observer);
   bool reorder_changed(const Graph& graph, const LmObserver& observer);
   double fill_per_column() const;
@@ -88,6 +92,7 @@ class LevenbergMarquardt {
   Span<BlockVector> forward_;  // L^-1 (-g)
   Span<BlockVector> step_;
   Span<Sim3> saved_;
+  double relinearize_ = 0.0;         // of the present options
   double fill_ = 0.0;                // blocks per column of the last order of all columns
   double step_size_ = 0.0;           // largest component of step_
   double shortened_ = 1.0;           // factor by which step_ is shorter than the solution

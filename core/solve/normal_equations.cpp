@@ -18,26 +18,34 @@ QuadShape shape_of(const Edge& edge) {
   return edge.Q < 0 ? QuadShape::kOneMeasurement : QuadShape::kTwoMeasurements;
 }
 
+// The identity as such.
+constexpr double kOrigin[8] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+
 // A Sim3 as eight numbers in a row.
 const double* numbers(const Sim3& T) { return T.q.coeffs().data(); }
 
 }  // namespace
 
-/// Where an edge adds: the sinks for what is fixed or not wanted.
+/// What of an edge is asked for, and where it adds: sinks for what is fixed or not asked for.
 struct NormalEquations::Ends {
+  bool needs_H;
+  bool needs_gradient;
+  bool is_whole;  ///< no column holds an older part of the edge
+  bool a_is_later;
   Block* diagonal_a;
   Block* diagonal_b;
   Block* coupling;
   BlockVector* gradient_a;
   BlockVector* gradient_b;
-  bool a_is_later;
 };
 
-// The last element of the gradient and the block are sinks: what is added there nobody reads.
+// The last elements of gradient and costs and the block are sinks: what is put there nobody reads.
 NormalEquations::NormalEquations(Arena& arena, const SolverCapacity& capacity)
     : gradient_(arena.take<BlockVector>(capacity.nodes + 1)),
+      changed_(arena.take<uint8_t>(capacity.nodes)),
+      points_(arena, capacity.edges),
       sink_(arena.take<Block>(1)),
-      edge_cost_(arena.take<double>(capacity.edges)) {}
+      edge_cost_(arena.take<double>(capacity.edges + 1)) {}
 
 NormalEquations::Ends NormalEquations::ends_of(const Graph& graph, int32_t id) const {
   const Edge& edge = graph.edge(id);
@@ -46,41 +54,46 @@ NormalEquations::Ends NormalEquations::ends_of(const Graph& graph, int32_t id) c
   const int32_t b = pattern_->column_of_node(edge.b);
   const bool wants_a = a >= 0 && target_.wants(a);
   const bool wants_b = b >= 0 && target_.wants(b);
+  const bool changed_a = a >= 0 && has_changed(a);
+  const bool changed_b = b >= 0 && has_changed(b);
+  Ends ends;
+  ends.needs_H = wants_a || wants_b;
+  ends.needs_gradient = changed_a || changed_b || (a < 0 && b < 0);
+  ends.is_whole = (a < 0 || wants_a) && (b < 0 || wants_b);
+  ends.a_is_later = place.a_is_later;
   Block* const sink = sink_.data();
-  BlockVector* const no_gradient = &gradient_[gradient_.size() - 1];
-  Ends ends = {sink, sink, sink, no_gradient, no_gradient, place.a_is_later};
-  if (wants_a) {
-    ends.diagonal_a = target_.blocks + target_.diagonal[a];
-    ends.gradient_a = &gradient_[a];
-  }
-  if (wants_b) {
-    ends.diagonal_b = target_.blocks + target_.diagonal[b];
-    ends.gradient_b = &gradient_[b];
-  }
-  if (place.slot >= 0 && (place.a_is_later ? wants_b : wants_a)) {
-    ends.coupling = target_.blocks + target_.off_diagonal[place.slot];
-  }
+  const bool has_place = place.slot >= 0 && (place.a_is_later ? wants_b : wants_a);
+  ends.diagonal_a = wants_a ? target_.blocks + target_.diagonal[a] : sink;
+  ends.diagonal_b = wants_b ? target_.blocks + target_.diagonal[b] : sink;
+  ends.coupling = has_place ? target_.blocks + target_.off_diagonal[place.slot] : sink;
+  BlockVector* const no_gradient = gradient_.end() - 1;
+  ends.gradient_a = changed_a ? &gradient_[a] : no_gradient;
+  ends.gradient_b = changed_b ? &gradient_[b] : no_gradient;
   return ends;
 }
 
 void NormalEquations::keep(Span<const int32_t> columns) {
-  for (int32_t i = 0; i < columns.size(); ++i) gradient_[i] = gradient_[columns[i]];
+  for (int32_t i = 0; i < columns.size(); ++i) {
+    gradient_[i] = gradient_[columns[i]];
+    changed_[i] = changed_[columns[i]];
+  }
+  for (int32_t i = columns.size(); i < changed_.size(); ++i) changed_[i] = 1;
 }
 
-void NormalEquations::clear_wanted() {
+void NormalEquations::clear_changed() {
   for (int32_t column = 0; column < columns_; ++column) {
-    if (target_.wants(column)) gradient_[column] = BlockVector{};
+    if (has_changed(column)) gradient_[column] = BlockVector{};
   }
   gradient_[gradient_.size() - 1] = BlockVector{};
   sink_[0] = Block{};
 }
 
 double NormalEquations::linearize(const Graph& graph, const BlockPattern& pattern,
-                                  const Assembly& target) {
+                                  const Assembly& target, bool remember) {
   pattern_ = &pattern;
   target_ = target;
   columns_ = pattern.columns();
-  clear_wanted();
+  clear_changed();
   QuadCollector quads;
   for (int32_t id = 0; id < graph.edge_end(); ++id) {
     const Edge& edge = graph.edge(id);
@@ -88,26 +101,32 @@ double NormalEquations::linearize(const Graph& graph, const BlockPattern& patter
       edge_cost_[id] = 0.0;
       continue;
     }
-    const int32_t a = pattern.column_of_node(edge.a);
-    const int32_t b = pattern.column_of_node(edge.b);
-    const bool between_fixed = a < 0 && b < 0;
-    const bool wanted = (a >= 0 && target.wants(a)) || (b >= 0 && target.wants(b));
-    if (!between_fixed && !wanted) continue;
+    const Ends ends = ends_of(graph, id);
+    if (!ends.needs_H && !ends.needs_gradient) continue;
+    if (remember && (ends.is_whole || !points_.knows(id))) points_.set(graph, id);
     if (is_pose_factor(edge.kind)) {
-      add_pose_edge(graph, id, &quads);
+      add_pose_edge(graph, id, ends, &quads);
     } else {
-      edge_cost_[id] = add_scale_edge(graph, id);
+      add_scale_edge(graph, id, ends);
     }
   }
   quads.finish();
+  changed_.fill(0);
+  return finish_costs(graph, remember);
+}
+
+double NormalEquations::finish_costs(const Graph& graph, bool remember) {
   double cost = 0.0;
-  for (int32_t id = 0; id < graph.edge_end(); ++id) cost += edge_cost_[id];
+  for (int32_t id = 0; id < graph.edge_end(); ++id) {
+    cost += edge_cost_[id];
+    if (remember && points_.needs_cost(id)) points_.set_cost(graph, id, edge_cost_[id]);
+  }
   return cost;
 }
 
-void NormalEquations::add_pose_edge(const Graph& graph, int32_t id, QuadCollector* quads) {
+void NormalEquations::add_pose_edge(const Graph& graph, int32_t id, const Ends& ends,
+                                    QuadCollector* quads) {
   const Edge& edge = graph.edge(id);
-  const Ends ends = ends_of(graph, id);
   QuadEdge out;
   out.A = numbers(graph.pose(edge.a));
   out.B = numbers(graph.pose(edge.b));
@@ -124,21 +143,32 @@ void NormalEquations::add_pose_edge(const Graph& graph, int32_t id, QuadCollecto
   out.g_a = ends.gradient_a->v;
   out.g_b = ends.gradient_b->v;
   out.cost = &edge_cost_[id];
+  const bool is_here = points_.is_here(id);
+  if (ends.needs_gradient && !(ends.needs_H && is_here)) quads->add_gradient(shape_of(edge), out);
+  if (!ends.needs_H) return;
+  if (!is_here) {
+    out.A = kOrigin;
+    out.B = numbers(points_.relative_pose(id));
+    out.g_a = (gradient_.end() - 1)->v;
+    out.g_b = out.g_a;
+    out.cost = edge_cost_.end() - 1;
+  }
   quads->add(shape_of(edge), ends.a_is_later, out);
 }
 
-double NormalEquations::add_scale_edge(const Graph& graph, int32_t id) {
+void NormalEquations::add_scale_edge(const Graph& graph, int32_t id, const Ends& ends) {
   const Edge& edge = graph.edge(id);
   const double e = scale_ratio_residual(graph.pose(edge.a), graph.pose(edge.b), edge.log_ratio);
   const RobustCost robust = robust_cost(edge.kernel, edge.weight() * e * e);
-  const double w = edge.weight() * robust.weight;
-  const Ends ends = ends_of(graph, id);
+  edge_cost_[id] = robust.cost;
+  const double slope = edge.weight() * robust.weight * e;
+  ends.gradient_a->v[kLogScale] -= slope;
+  ends.gradient_b->v[kLogScale] += slope;
+  const double w =
+      edge.weight() * (points_.is_here(id) ? robust.weight : points_.robust_weight(id));
   ends.diagonal_a->at(kLogScale, kLogScale) += w;
-  ends.gradient_a->v[kLogScale] -= w * e;
   ends.diagonal_b->at(kLogScale, kLogScale) += w;
-  ends.gradient_b->v[kLogScale] += w * e;
   ends.coupling->at(kLogScale, kLogScale) -= w;
-  return robust.cost;
 }
 
 }  // namespace unisim

@@ -7,9 +7,9 @@
 namespace unisim {
 
 void minimum_degree_order(Span<const int32_t> adjacency_start, Span<const int32_t> adjacency,
-                          Span<int32_t> work, Span<int32_t> order) {
+                          int32_t first_late, Span<int32_t> work, Span<int32_t> order) {
   if (order.empty()) return;
-  QuotientGraph graph(adjacency_start, adjacency, work);
+  QuotientGraph graph(adjacency_start, adjacency, first_late, work);
   graph.eliminate_all();
   graph.write_order(order);
 }

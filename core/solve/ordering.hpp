@@ -19,9 +19,10 @@ constexpr int64_t minimum_degree_workspace(int64_t nodes, int64_t pairs) {
 ///
 /// @param adjacency_start nodes + 1 offsets into adjacency
 /// @param adjacency       neighbours of each node, both directions, no self loops, no doubles
+/// @param first_late      nodes from this one on come after all others in the elimination tree
 /// @param work            at least minimum_degree_workspace() elements
 /// @param[out] order      order[k] is the k-th node to eliminate
 void minimum_degree_order(Span<const int32_t> adjacency_start, Span<const int32_t> adjacency,
-                          Span<int32_t> work, Span<int32_t> order);
+                          int32_t first_late, Span<int32_t> work, Span<int32_t> order);
 
 }  // namespace unisim

@@ -128,7 +128,7 @@ UNISIM_ALWAYS_INLINE void normal_of(const PoseQuad& quad, int first, PackNormal*
 
 // Four edges in one pack or two. The blocks of a come first, then those of b: two edges may share
 // them, and the order of a sum decides its last digits.
-template <QuadShape kShape>
+template <QuadShape kShape, bool kGradientOnly>
 void add(const PoseQuad& quad) {
   constexpr int kPacks = PoseQuad::kEdges / kPackLanes;
   PackNormal normal[kPacks];
@@ -143,15 +143,21 @@ void add(const PoseQuad& quad) {
     for (int lane = 0; lane < kPackLanes; ++lane) *quad.cost[first + lane] = robust.cost[lane];
   }
   for (int i = 0; i < kPacks; ++i) {
-    add_symmetric(quad.H_aa + i * kPackLanes, w[i], normal[i].H_aa);
+    if constexpr (!kGradientOnly) add_symmetric(quad.H_aa + i * kPackLanes, w[i], normal[i].H_aa);
     add_vector(quad.g_a + i * kPackLanes, -w[i], normal[i].minus_g_a);
   }
   for (int i = 0; i < kPacks; ++i) {
-    add_symmetric(quad.H_bb + i * kPackLanes, w[i], normal[i].H_bb);
     add_vector(quad.g_b + i * kPackLanes, w[i], normal[i].g_b);
+    if constexpr (kGradientOnly) continue;
+    add_symmetric(quad.H_bb + i * kPackLanes, w[i], normal[i].H_bb);
     const PackBlocks& U = normal[i].minus_H_ba;
     add_block(quad.H_ab + i * kPackLanes, -w[i], quad.a_is_later ? transposed(U) : U);
   }
+}
+
+template <QuadShape kShape>
+void add_as(const PoseQuad& quad) {
+  quad.gradient_only ? add<kShape, true>(quad) : add<kShape, false>(quad);
 }
 
 }  // namespace
@@ -159,13 +165,13 @@ void add(const PoseQuad& quad) {
 void add_pose_quad(const PoseQuad& quad) {
   switch (quad.shape) {
     case QuadShape::kOneMeasurement:
-      return add<QuadShape::kOneMeasurement>(quad);
+      return add_as<QuadShape::kOneMeasurement>(quad);
     case QuadShape::kTwoMeasurements:
-      return add<QuadShape::kTwoMeasurements>(quad);
+      return add_as<QuadShape::kTwoMeasurements>(quad);
     case QuadShape::kChain:
-      return add<QuadShape::kChain>(quad);
+      return add_as<QuadShape::kChain>(quad);
     case QuadShape::kRigid:
-      return add<QuadShape::kRigid>(quad);
+      return add_as<QuadShape::kRigid>(quad);
   }
 }
 

@@ -23,7 +23,8 @@ struct PoseQuad {
   static constexpr int kEdges = 4;
 
   QuadShape shape = QuadShape::kOneMeasurement;
-  bool a_is_later = false;  ///< rows of the off-diagonal blocks are those of node a, else of b
+  bool a_is_later = false;     ///< rows of the off-diagonal blocks are those of node a, else of b
+  bool gradient_only = false;  ///< nothing is added to the blocks
   const double* A[kEdges];
   const double* B[kEdges];
   const double* P[kEdges];
@@ -48,8 +49,8 @@ namespace avx2 {
 void add_pose_quad(const PoseQuad& quad);
 }
 
-/// Adds w J'J and w J'e of four edges to their blocks, in the order of the quad. Of diagonal blocks
-/// only the lower triangle has a meaning. Weight 0 makes an edge that adds nothing.
+/// Adds w J'J (or not) and w J'e of four edges to their blocks, in the order of the quad. Of
+/// diagonal blocks only the lower triangle has a meaning. Weight 0 makes an edge that adds nothing.
 inline void add_pose_quad(const PoseQuad& quad) { UNISIM_DISPATCH(add_pose_quad(quad)); }
 
 }  // namespace unisim

@@ -46,6 +46,8 @@ void pad(int32_t count, double* no_cost, PoseQuad* quad) {
 
 QuadCollector::QuadCollector() {
   for (int shape = 0; shape < kQuadShapes; ++shape) {
+    gradients_[shape].quad.shape = static_cast<QuadShape>(shape);
+    gradients_[shape].quad.gradient_only = true;
     for (int later = 0; later < 2; ++later) {
       groups_[2 * shape + later].quad.shape = static_cast<QuadShape>(shape);
       groups_[2 * shape + later].quad.a_is_later = later == 1;
@@ -54,9 +56,16 @@ QuadCollector::QuadCollector() {
 }
 
 void QuadCollector::add(QuadShape shape, bool a_is_later, const QuadEdge& edge) {
-  Group& group = groups_[2 * static_cast<int>(shape) + (a_is_later ? 1 : 0)];
-  put(edge, group.count++, &group.quad);
-  if (group.count == PoseQuad::kEdges) flush(&group);
+  add(edge, &groups_[2 * static_cast<int>(shape) + (a_is_later ? 1 : 0)]);
+}
+
+void QuadCollector::add_gradient(QuadShape shape, const QuadEdge& edge) {
+  add(edge, &gradients_[static_cast<int>(shape)]);
+}
+
+void QuadCollector::add(const QuadEdge& edge, Group* group) {
+  put(edge, group->count++, &group->quad);
+  if (group->count == PoseQuad::kEdges) flush(group);
 }
 
 void QuadCollector::flush(Group* group) {
@@ -68,6 +77,7 @@ void QuadCollector::flush(Group* group) {
 
 void QuadCollector::finish() {
   for (Group& group : groups_) flush(&group);
+  for (Group& group : gradients_) flush(&group);
 }
 
 }  // namespace unisim

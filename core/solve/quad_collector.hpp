@@ -31,6 +31,8 @@ class QuadCollector {
   QuadCollector();
 
   void add(QuadShape shape, bool a_is_later, const QuadEdge& edge);
+  /// Adds nothing to the blocks of H, whose fields need no value.
+  void add_gradient(QuadShape shape, const QuadEdge& edge);
   /// Adds what is left.
   void finish();
 
@@ -39,9 +41,11 @@ class QuadCollector {
     PoseQuad quad;
     int32_t count = 0;
   };
+  void add(const QuadEdge& edge, Group* group);
   void flush(Group* group);
 
   Group groups_[2 * kQuadShapes];
+  Group gradients_[kQuadShapes];
   double sink_ = 0.0;  // cost of what fills a quad
 };
 

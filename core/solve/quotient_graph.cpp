@@ -16,8 +16,8 @@ Span<int32_t> QuotientGraph::take(int32_t count) {
 }
 
 QuotientGraph::QuotientGraph(Span<const int32_t> adjacency_start, Span<const int32_t> adjacency,
-                             Span<int32_t> work)
-    : n_(adjacency_start.size() - 1), work_(work) {
+                             int32_t first_late, Span<int32_t> work)
+    : n_(adjacency_start.size() - 1), first_late_(first_late), work_(work) {
   for (Span<int32_t>* part :
        {&start_, &length_, &elements_, &weight_, &degree_, &stamp_, &head_, &next_, &previous_,
         &hash_head_, &parent_, &twin_next_, &twin_last_}) {
@@ -39,7 +39,7 @@ QuotientGraph::QuotientGraph(Span<const int32_t> adjacency_start, Span<const int
     length_[i] = adjacency_start[i + 1] - adjacency_start[i];
     degree_[i] = length_[i];
     twin_last_[i] = i;
-    push_degree(i);
+    if (!is_late(i)) push_degree(i);
   }
 }
 
@@ -111,7 +111,7 @@ int32_t QuotientGraph::gather_element(int32_t me) {
     if (weight_[i] <= 0) return;
     weight += weight_[i];
     weight_[i] = -weight_[i];
-    remove_degree(i);
+    if (may_go(i)) remove_degree(i);
     list_[list_end_++] = i;
   };
   const int32_t own = weight_[me];
@@ -175,7 +175,7 @@ void QuotientGraph::prune_variable(int32_t i, int32_t me, int32_t* eliminated) {
     list_[to++] = j;
     hash += static_cast<uint32_t>(j);
   }
-  if (outside == 0) {  // touches nothing but me: eliminated along with it
+  if (outside == 0 && may_go(i)) {  // touches nothing but me: eliminated along with it
     *eliminated -= weight_[i];
     degree_[me] += weight_[i];
     merge(i, me);
@@ -213,6 +213,7 @@ void QuotientGraph::merge(int32_t j, int32_t into) {
 // Whether i, whose list is stamped with mark_, and j have the same neighbours.
 bool QuotientGraph::are_twins(int32_t i, int32_t j) {
   if (length_[i] != length_[j] || elements_[i] != elements_[j]) return false;
+  if (is_late(i) != is_late(j)) return false;
   for (int32_t k = 1; k < length_[j]; ++k) {  // the first entry of both is me
     if (stamp_[list_[start_[j] + k]] != mark_) return false;
   }
@@ -253,7 +254,7 @@ void QuotientGraph::finish_element(int32_t me, int32_t left) {
     if (weight_[i] == 0) continue;
     weight_[i] = -weight_[i];
     degree_[i] = std::min(degree_[i] + degree_[me], left) - weight_[i];
-    push_degree(i);
+    if (may_go(i)) push_degree(i);
     list_[to++] = i;
   }
   length_[me] = to - start_[me];
@@ -261,8 +262,16 @@ void QuotientGraph::finish_element(int32_t me, int32_t left) {
   weight_[me] = -weight_[me];
 }
 
+void QuotientGraph::release_late() {
+  late_may_go_ = true;
+  for (int32_t i = n_ - 1; i >= first_late_; --i) {
+    if (weight_[i] > 0) push_degree(i);
+  }
+}
+
 void QuotientGraph::eliminate_all() {
   while (eliminated_ < n_) {
+    if (eliminated_ == first_late_ && !late_may_go_) release_late();
     const int32_t me = pop_minimum();
     eliminated_ += gather_element(me);
     largest_ = std::max(largest_, degree_[me]);

@@ -17,8 +17,8 @@ class QuotientGraph {
  public:
   /// Arguments as of minimum_degree_order(); `work` is used until the object ends.
   QuotientGraph(Span<const int32_t> adjacency_start, Span<const int32_t> adjacency,
-                Span<int32_t> work);
-  /// Eliminate every node, one of least degree at a time.
+                int32_t first_late, Span<int32_t> work);
+  /// Eliminate every node, one of least degree at a time, late ones after all others.
   void eliminate_all();
   /// The nodes in an order of that elimination, once.
   void write_order(Span<int32_t> order);
@@ -37,11 +37,15 @@ class QuotientGraph {
   int32_t prune_variables(int32_t me);
   void prune_variable(int32_t i, int32_t me, int32_t* eliminated);
   void merge_twins(int32_t me);
+  bool is_late(int32_t i) const { return i >= first_late_; }
+  bool may_go(int32_t i) const { return late_may_go_ || !is_late(i); }
+  void release_late();
   bool are_twins(int32_t i, int32_t j);
   void merge(int32_t j, int32_t into);
   void finish_element(int32_t me, int32_t left);
 
   int32_t n_;
+  int32_t first_late_;
   Span<int32_t> work_;
   int32_t taken_ = 0;
   Span<int32_t> start_;     // list of a member: elements first, then variables
@@ -50,7 +54,7 @@ class QuotientGraph {
   Span<int32_t> weight_;    // variables it stands for; 0: gone; negative: in the present element
   Span<int32_t> degree_;    // bound on the weight of a variable's neighbours; weight of an element
   Span<int32_t> stamp_;     // marks and set differences, compared with mark_
-  Span<int32_t> head_;      // degree -> first variable of that degree
+  Span<int32_t> head_;      // degree -> first variable of that degree that may be eliminated
   Span<int32_t> next_;      // in the degree list or in the hash list
   Span<int32_t> previous_;  // in the degree list; the hash while in a hash list
   Span<int32_t> hash_head_;
@@ -63,6 +67,7 @@ class QuotientGraph {
   int32_t mark_ = 1;
   int32_t largest_ = 0;
   int32_t eliminated_ = 0;
+  bool late_may_go_ = false;
 };
 
 }  // namespace unisim

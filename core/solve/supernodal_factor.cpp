@@ -108,11 +108,10 @@ void update_from_list(const FactorTask& task, int32_t s) {
   }
 }
 
-// The first row of a run whose columns are stale: all later ones are, too.
-int32_t first_stale_row(const FactorTask& task, int32_t s) {
-  const Run J(task.S, s);
+// The first row of a run whose column is that stale: all later ones are, too.
+int32_t first_row(const FactorTask& task, const Run& J, Staleness least) {
   int32_t r = 0;
-  while (r < J.row_count && task.stale[task.S.of_column[J.rows[r]]] == 0) ++r;
+  while (r < J.row_count && task.stale[task.S.of_column[J.rows[r]]] < least) ++r;
   return r;
 }
 
@@ -152,18 +151,21 @@ int32_t factorize(const FactorTask& task) {
   for (int32_t s = 0; s < S.count; ++s) task.lists.first[s] = -1;
   for (int32_t s = 0; s < S.count; ++s) {
     const Run J(S, s);
-    if (task.stale[s] != 0) {
+    if (task.stale[s] == Staleness::kFactor) {
       damp(J, task.lambda, task.H_diagonal, task.blocks);
       find_places(J, task.lists.place);
       update_from_list(task, s);
       const int32_t failed = finish(J, task.lambda, task.H_diagonal, task.blocks);
       if (failed >= 0) return failed;
       enlist(S, task.lists, s, 0);
-      if (task.x != nullptr) forward_run(J, task.blocks, task.x);
     } else {
-      const int32_t first = first_stale_row(task, s);
-      enlist(S, task.lists, s, first);
-      if (task.x != nullptr) forward_rows(J, first, task.blocks, task.x);
+      enlist(S, task.lists, s, first_row(task, J, Staleness::kFactor));
+    }
+    if (task.x == nullptr) continue;
+    if (task.stale[s] == Staleness::kNone) {
+      forward_rows(J, first_row(task, J, Staleness::kRightSide), task.blocks, task.x);
+    } else {
+      forward_run(J, task.blocks, task.x);
     }
   }
   return -1;

@@ -2,6 +2,7 @@
 // Numeric phase of the supernodal block Cholesky factorisation; vectorised.
 #pragma once
 
+#include "core/solve/assembly.hpp"
 #include "core/solve/supernodes.hpp"
 
 namespace unisim {
@@ -10,11 +11,12 @@ namespace unisim {
 struct FactorTask {
   Supernodes S;
   SupernodeLists lists;
-  const uint8_t* stale;     ///< supernode -> 1: to be factorised; with one all its ancestors
-  double lambda;            ///< damping
-  Block* blocks;            ///< H, overwritten by L
-  BlockVector* H_diagonal;  ///< columns; [out] the diagonal of H before damping, of stale columns
-  /// Columns, or nullptr: x := L^-1 x on the way, while L is at hand. Where it is not stale x is
+  const Staleness* stale;  ///< by supernode; an ancestor is at least as stale
+  double lambda;           ///< damping
+  Block* blocks;           ///< H, overwritten by L
+  BlockVector*
+      H_diagonal;  ///< columns; [out] the diagonal of H before damping, where that is stale
+  /// Columns, or nullptr: x := L^-1 x on the way, while L is at hand. Where nothing is stale x is
   /// the result of the last time already.
   BlockVector* x;
 };

@@ -121,9 +121,10 @@ class Assembled {
         of_column_(static_cast<size_t>(columns_), 0),
         place_(blocks_.size()) {
     std::iota(place_.begin(), place_.end(), 0);
+    equations.mark_all_changed();
     cost_ = equations.linearize(
         graph, pattern,
-        {blocks_.data(), place_.data(), place_.data() + columns_, of_column_.data(), &all_});
+        {blocks_.data(), place_.data(), place_.data() + columns_, of_column_.data(), &all_}, false);
   }
   double cost() const { return cost_; }
   int32_t columns() const { return columns_; }
@@ -161,7 +162,7 @@ class Assembled {
   std::vector<unisim::Block> blocks_;
   std::vector<int32_t> of_column_;
   std::vector<int32_t> place_;
-  uint8_t all_ = 1;
+  unisim::Staleness all_ = unisim::Staleness::kFactor;
   double cost_ = 0.0;
 };
 

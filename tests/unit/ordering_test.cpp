@@ -15,12 +15,32 @@ namespace {
 
 using Pairs = std::vector<std::pair<int32_t, int32_t>>;
 
-std::vector<int32_t> order_of(int32_t n, const Pairs& pairs) {
-  std::vector<std::set<int32_t>> neighbours(static_cast<size_t>(n));
+using Neighbours = std::vector<std::set<int32_t>>;
+
+Neighbours neighbours_of(int32_t n, const Pairs& pairs) {
+  Neighbours neighbours(static_cast<size_t>(n));
   for (const auto& [a, b] : pairs) {
     neighbours[static_cast<size_t>(a)].insert(b);
     neighbours[static_cast<size_t>(b)].insert(a);
   }
+  return neighbours;
+}
+
+// Removes a node and joins its neighbours to each other. @return those
+std::set<int32_t> eliminate(int32_t k, Neighbours* neighbours) {
+  const std::set<int32_t> clique = (*neighbours)[static_cast<size_t>(k)];
+  for (const int32_t a : clique) {
+    std::set<int32_t>& of_a = (*neighbours)[static_cast<size_t>(a)];
+    of_a.erase(k);
+    of_a.insert(clique.begin(), clique.end());
+    of_a.erase(a);
+  }
+  return clique;
+}
+
+/// @param first_late 0: none is to come late
+std::vector<int32_t> order_of(int32_t n, const Pairs& pairs, int32_t first_late = 0) {
+  const Neighbours neighbours = neighbours_of(n, pairs);
   std::vector<int32_t> start{0};
   std::vector<int32_t> list;
   for (const auto& of_one : neighbours) {
@@ -31,7 +51,8 @@ std::vector<int32_t> order_of(int32_t n, const Pairs& pairs) {
       static_cast<size_t>(minimum_degree_workspace(n, static_cast<int64_t>(list.size()) / 2)));
   std::vector<int32_t> order(static_cast<size_t>(n), -1);
   minimum_degree_order({start.data(), n + 1}, {list.data(), static_cast<int32_t>(list.size())},
-                       {work.data(), static_cast<int32_t>(work.size())}, {order.data(), n});
+                       first_late, {work.data(), static_cast<int32_t>(work.size())},
+                       {order.data(), n});
   return order;
 }
 
@@ -45,22 +66,9 @@ bool is_permutation_of_all(std::vector<int32_t> order) {
 
 // Off-diagonal blocks of the factor, by eliminating one node after another.
 size_t fill(int32_t n, const Pairs& pairs, const std::vector<int32_t>& order) {
-  std::vector<std::set<int32_t>> neighbours(static_cast<size_t>(n));
-  for (const auto& [a, b] : pairs) {
-    neighbours[static_cast<size_t>(a)].insert(b);
-    neighbours[static_cast<size_t>(b)].insert(a);
-  }
+  Neighbours neighbours = neighbours_of(n, pairs);
   size_t blocks = 0;
-  for (const int32_t k : order) {
-    const std::set<int32_t> clique = neighbours[static_cast<size_t>(k)];
-    blocks += clique.size();
-    for (const int32_t a : clique) {
-      neighbours[static_cast<size_t>(a)].erase(k);
-      for (const int32_t b : clique) {
-        if (a != b) neighbours[static_cast<size_t>(a)].insert(b);
-      }
-    }
-  }
+  for (const int32_t k : order) blocks += eliminate(k, &neighbours).size();
   return blocks;
 }
 
@@ -76,11 +84,7 @@ Pairs random_pairs(unisim_test::Random& random, int32_t n, int32_t count) {
 
 // Exact minimum degree by sets: the yardstick for the approximate degrees.
 std::vector<int32_t> exact_minimum_degree(int32_t n, const Pairs& pairs) {
-  std::vector<std::set<int32_t>> neighbours(static_cast<size_t>(n));
-  for (const auto& [a, b] : pairs) {
-    neighbours[static_cast<size_t>(a)].insert(b);
-    neighbours[static_cast<size_t>(b)].insert(a);
-  }
+  Neighbours neighbours = neighbours_of(n, pairs);
   std::vector<bool> done(static_cast<size_t>(n), false);
   std::vector<int32_t> order;
   for (int32_t step = 0; step < n; ++step) {
@@ -93,13 +97,7 @@ std::vector<int32_t> exact_minimum_degree(int32_t n, const Pairs& pairs) {
     }
     done[static_cast<size_t>(best)] = true;
     order.push_back(best);
-    const std::set<int32_t> clique = neighbours[static_cast<size_t>(best)];
-    for (const int32_t a : clique) {
-      neighbours[static_cast<size_t>(a)].erase(best);
-      for (const int32_t b : clique) {
-        if (a != b) neighbours[static_cast<size_t>(a)].insert(b);
-      }
-    }
+    eliminate(best, &neighbours);
   }
   return order;
 }
@@ -115,6 +113,23 @@ TEST_CASE("a chain and a star fill nothing") {
   }
   CHECK(fill(50, chain, order_of(50, chain)) == 49);
   CHECK(fill(50, star, order_of(50, star)) == 49);
+}
+
+TEST_CASE("nodes that are to come late have none of the others above them") {
+  unisim_test::Random random(21);
+  for (int32_t repetition = 0; repetition < 60; ++repetition) {
+    const int32_t n = 2 + random.below(80);
+    const int32_t first_late = random.below(n + 1);
+    const Pairs pairs = random_pairs(random, n, 3 * n);
+    const std::vector<int32_t> order = order_of(n, pairs, first_late);
+    REQUIRE(is_permutation_of_all(order));
+    Neighbours neighbours = neighbours_of(n, pairs);
+    for (const int32_t k : order) {
+      for (const int32_t above : eliminate(k, &neighbours)) {
+        CHECK((k < first_late || above >= first_late));
+      }
+    }
+  }
 }
 
 TEST_CASE("isolated nodes, one node and a clique are ordered too") {

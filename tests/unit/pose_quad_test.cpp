@@ -213,6 +213,27 @@ TEST_CASE("an edge gets the same bits whatever its neighbours are") {
   }
 }
 
+TEST_CASE("the gradient alone is that of the whole, bit for bit") {
+  for (const QuadShape shape : kShapes) {
+    std::vector<TestEdge> whole = edges_of_all_sizes(shape);
+    std::vector<TestEdge> gradient = whole;
+    collect(shape, false, &whole);
+    QuadCollector collector;
+    for (TestEdge& edge : gradient) {
+      QuadEdge out = edge.quad_edge(shape);
+      out.H_aa = out.H_bb = out.H_ab = nullptr;
+      collector.add_gradient(shape, out);
+    }
+    collector.finish();
+    for (size_t i = 0; i < whole.size(); ++i) {
+      CAPTURE(static_cast<int>(shape), i);
+      CHECK(std::memcmp(&whole[i].g_a, &gradient[i].g_a, sizeof(BlockVector)) == 0);
+      CHECK(std::memcmp(&whole[i].g_b, &gradient[i].g_b, sizeof(BlockVector)) == 0);
+      CHECK(whole[i].cost == gradient[i].cost);
+    }
+  }
+}
+
 TEST_CASE("a residual that is no number makes a cost that is none") {
   Random random(8);
   std::vector<TestEdge> edges(3, edge_with(random, QuadShape::kOneMeasurement, 0.1, 0.1));

@@ -30,6 +30,17 @@ TEST_CASE("no kernel is least squares") {
   CHECK(robust_cost({}, 8.0).weight == 1.0);
 }
 
+TEST_CASE("the weight follows from the cost") {
+  for (const RobustKernelKind kind :
+       {RobustKernelKind::kNone, RobustKernelKind::kHuber, RobustKernelKind::kGemanMcClure}) {
+    for (const double u : {0.0, 0.01, 0.29, 0.31, 2.0}) {
+      const RobustKernel kernel{kind, 0.3};
+      const RobustCost robust = robust_cost(kernel, u * u);
+      CHECK(robust_weight(kernel, robust.cost) == Approx(robust.weight));
+    }
+  }
+}
+
 TEST_CASE("the weight is the derivative of the cost over u") {
   for (const RobustKernelKind kind :
        {RobustKernelKind::kNone, RobustKernelKind::kHuber, RobustKernelKind::kGemanMcClure}) {

@@ -46,6 +46,10 @@ void add_updates(CLI::App* app, UpdateSettings* settings) {
       ->add_option("--least-move", settings->least_move,
                    "nodes that would move less stay; 0: everything is computed anew each time")
       ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--relinearize", settings->relinearize,
+                   "edges that have changed less keep their part of H; 0: none does")
+      ->check(CLI::NonNegativeNumber);
   command->add_flag("--json", settings->json, "one line of JSON");
 }
 

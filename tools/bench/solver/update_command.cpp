@@ -16,6 +16,7 @@ int update_command(const UpdateSettings& settings) {
                        {"from", settings.from},
                        {"iterations", settings.iterations},
                        {"least_move", settings.least_move},
+                       {"relinearize", settings.relinearize},
                        {"heap_calls", run.heap_calls},
                        {"update_ms", times_json(run.update_ms)},
                        {"loop_update_ms", times_json(run.loop_update_ms)},

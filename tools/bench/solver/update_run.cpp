@@ -25,6 +25,7 @@ class Arrival {
         edges_of_(source.nodes.size()) {
     options_.max_iterations = settings.iterations;
     options_.least_move = settings.least_move;
+    options_.relinearize = settings.relinearize;
     for (const FileEdge& edge : source.edges) {
       edges_of_[static_cast<size_t>(std::max(edge.a, edge.b))].push_back(&edge);
     }
@@ -71,6 +72,7 @@ class Arrival {
   double batch_cost() {
     options_.max_iterations = 100;
     options_.least_move = 0.0;
+    options_.relinearize = 0.0;
     UpdateRun run;
     optimize(&run);
     return run.cost;

@@ -12,9 +12,10 @@ namespace unisim::bench {
 
 struct UpdateSettings {
   std::string graph;
-  int32_t from = 0;          ///< keyframes there are before an update counts
-  int32_t iterations = 2;    ///< of each update
-  double least_move = 1e-6;  ///< LmOptions::least_move; 0: everything anew each time
+  int32_t from = 0;           ///< keyframes there are before an update counts
+  int32_t iterations = 2;     ///< of each update
+  double least_move = 1e-6;   ///< LmOptions::least_move; 0: everything anew each time
+  double relinearize = 1e-2;  ///< LmOptions::relinearize
   bool json = false;
 };
 
