@@ -28,7 +28,7 @@ const double* numbers(const Sim3& T) { return T.q.coeffs().data(); }
 
 /// What of an edge is asked for, and where it adds: sinks for what is fixed or not asked for.
 struct NormalEquations::Ends {
-  bool needs_H;
+  bool needs_blocks;
   bool needs_gradient;
   bool is_whole;  ///< no column holds an older part of the edge
   bool a_is_later;
@@ -57,7 +57,7 @@ NormalEquations::Ends NormalEquations::ends_of(const Graph& graph, int32_t id) c
   const bool changed_a = a >= 0 && has_changed(a);
   const bool changed_b = b >= 0 && has_changed(b);
   Ends ends;
-  ends.needs_H = wants_a || wants_b;
+  ends.needs_blocks = wants_a || wants_b;
   ends.needs_gradient = changed_a || changed_b || (a < 0 && b < 0);
   ends.is_whole = (a < 0 || wants_a) && (b < 0 || wants_b);
   ends.a_is_later = place.a_is_later;
@@ -102,7 +102,7 @@ double NormalEquations::linearize(const Graph& graph, const BlockPattern& patter
       continue;
     }
     const Ends ends = ends_of(graph, id);
-    if (!ends.needs_H && !ends.needs_gradient) continue;
+    if (!ends.needs_blocks && !ends.needs_gradient) continue;
     if (remember && (ends.is_whole || !points_.knows(id))) points_.set(graph, id);
     if (is_pose_factor(edge.kind)) {
       add_pose_edge(graph, id, ends, &quads);
@@ -144,8 +144,9 @@ void NormalEquations::add_pose_edge(const Graph& graph, int32_t id, const Ends& 
   out.g_b = ends.gradient_b->v;
   out.cost = &edge_cost_[id];
   const bool is_here = points_.is_here(id);
-  if (ends.needs_gradient && !(ends.needs_H && is_here)) quads->add_gradient(shape_of(edge), out);
-  if (!ends.needs_H) return;
+  if (ends.needs_gradient && !(ends.needs_blocks && is_here))
+    quads->add_gradient(shape_of(edge), out);
+  if (!ends.needs_blocks) return;
   if (!is_here) {
     out.A = kOrigin;
     out.B = numbers(points_.relative_pose(id));
