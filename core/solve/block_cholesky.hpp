@@ -76,7 +76,7 @@ class BlockCholesky {
 
   /// Diagonal block of (L L')^-1. Needs a factor; turns what of it lies between the column and the
   /// root of the tree into the inverse, once: that part is stale then, and solving needs
-  /// factorize() again. All columns together cost two to three times a factorisation.
+  /// factorize() again. All columns together cost about three times a factorisation.
   /// @param work columns vectors, overwritten
   void inverse_block(int32_t column, Span<BlockVector> work, Mat7* out);
 

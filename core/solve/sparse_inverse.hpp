@@ -12,7 +12,7 @@ namespace unisim {
 ///     S_Rj = -S_RR Y    S_jj = L_jj^-T L_jj^-1 - Y' S_Rj    with Y = L_Rj L_jj^-1 .
 ///
 /// What S_RR holds lies on the pattern of L, in columns above j in the tree: one column needs the
-/// way to the root, all of them cost two to three times the factorisation.
+/// way to the root, all of them cost about three times the factorisation.
 struct InverseTask {
   Supernodes S;
   Block* blocks;      ///< L; of inverted supernodes S, the diagonal blocks whole
