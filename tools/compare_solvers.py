@@ -4,6 +4,7 @@
 
     tools/compare_solvers.py --peers DIR GRAPH.usg GRAPH.g2o ...
     tools/compare_solvers.py --peers DIR --keyframes 200,1000,5000
+    tools/compare_solvers.py --peers DIR --keyframes 1200 --updates-from 1000
 
 DIR holds the built programs of the peers harness (run_ceres, run_g2o, run_yardstick, gen_graph);
 the ones that are missing are left out, without --peers our solver is shown alone. A program takes a
@@ -12,6 +13,10 @@ rss_peak_kb, allocs, trace [[CPU ms, cost], ...].
 
 t6 is the CPU time from the start of the optimisation, ordering and analysis included, until the
 cost is within 1e-6 (relative) of the lowest cost any solver reached on the graph.
+
+With --updates-from N, graphs in .usg are also fed submap by submap, as on a robot, and updates from N
+keyframes on are timed: ours, and iSAM2 of GTSAM where DIR holds run_isam2_wheel.py and the Python of
+--python can import gtsam. That program takes a graph and N, and prints median_ms, max_ms and cost.
 """
 import argparse
 import json
@@ -37,6 +42,7 @@ G2O_RUNS = [
     ("run_g2o", ["custom", "cholmod", "gn", "20"]),
     ("run_g2o", ["custom", "csparse", "gn", "20"]),
 ]
+ISAM2 = "run_isam2_wheel.py"
 
 
 class Failure(Exception):
@@ -55,6 +61,8 @@ def parse_arguments():
     parser.add_argument("--keyframes", help="also graphs of gen_graph with these numbers, as 200,1000")
     parser.add_argument("--reps", type=int, default=5, help="repetitions, interleaved (5)")
     parser.add_argument("--timeout", type=float, default=300, help="seconds for one run (300)")
+    parser.add_argument("--updates-from", type=int, metavar="N", help="also time live updates from N keyframes on")
+    parser.add_argument("--python", default=sys.executable, help="Python that may have gtsam (this one)")
     parser.add_argument("--json", metavar="FILE", help="append every result line to FILE")
     arguments = parser.parse_args()
     if arguments.reps < 1:
@@ -189,6 +197,48 @@ def print_split(runs):
         print(f"  {solver + ' ' + config:32s} {parts}")
 
 
+def update_commands(graph, arguments, bench):
+    """Commands by the name of their row; iSAM2 takes one Gauss-Newton step per update."""
+    start = str(arguments.updates_from)
+    ours = [bench, "updates", graph, "--from", start, "--json", "--iterations"]
+    commands = {"unisim, 1 iteration": ours + ["1"], "unisim, 2 iterations": ours + ["2"]}
+    script = os.path.join(arguments.peers or "", ISAM2)
+    has_gtsam = [arguments.python, "-c", "import gtsam"]
+    if arguments.peers and os.path.exists(script) and \
+            subprocess.run(has_gtsam, stderr=subprocess.DEVNULL).returncode == 0:
+        commands["iSAM2 of GTSAM"] = [arguments.python, script, graph, start]
+    return commands
+
+
+def update_times(result):
+    """Median of the updates and the longest one; ours tells updates that close a loop apart."""
+    if "median_ms" in result:
+        return result["median_ms"], result["max_ms"]
+    return result["update_ms"]["p50"], max(result["update_ms"]["max"], result["loop_update_ms"]["max"])
+
+
+def print_updates(graph, arguments, bench):
+    commands = update_commands(graph, arguments, bench)
+    runs = {name: [] for name in commands}
+    for _ in range(arguments.reps):
+        for name, command in commands.items():
+            result = run_once(command, arguments.timeout)
+            if result is not None:
+                runs[name].append(result)
+    if not any(update_times(result)[0] for results in runs.values() for result in results):
+        raise Failure(3, f"{graph}: no updates from {arguments.updates_from} keyframes on: give less to --updates-from")
+    runs = {name: results for name, results in runs.items() if results}
+    best_cost = min(result["cost"] for results in runs.values() for result in results)
+    print(f"{'updates from ' + str(arguments.updates_from) + ' keyframes on':34s} {'median ms':>9s} {'max':>9s} "
+          f"{'ratio':>7s} {'rel. gap':>9s}")
+    ours = None
+    for name, results in runs.items():
+        medians, longest = zip(*(update_times(result) for result in results))
+        ours = ours or statistics.median(medians)
+        print(f"  {name:32s} {statistics.median(medians):9.3f} {statistics.median(longest):9.3f} "
+              f"{text(ratio(statistics.median(medians), ours), '7.2f'):>7s} {results[0]['cost'] / best_cost - 1:9.1e}")
+
+
 def processor():
     try:
         with open("/proc/cpuinfo", encoding="utf-8") as file:
@@ -223,6 +273,8 @@ def main():
                 raise Failure(1, f"{graph}: no solver gave a result")
             print_table(graph, runs)
             print_split(runs)
+            if arguments.updates_from is not None and graph.endswith(".usg"):
+                print_updates(graph, arguments, bench)
 
 
 if __name__ == "__main__":

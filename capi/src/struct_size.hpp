@@ -10,8 +10,7 @@
 namespace unisim {
 
 /// Where the struct of the first release ended; fields are only ever added behind it.
-#define UNISIM_FIRST_SIZE(type, last_field) \
-  (offsetof(type, last_field) + sizeof(static_cast<type*>(nullptr)->last_field))
+#define UNISIM_FIRST_SIZE(type, last_field) (offsetof(type, last_field) + sizeof(type::last_field))
 
 template <class T>
 struct FirstSize;

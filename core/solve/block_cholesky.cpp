@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/solve/block_map.hpp"
+#include "core/solve/sparse_inverse.hpp"
 #include "core/solve/supernodal_factor.hpp"
 
 namespace unisim {
@@ -322,29 +324,19 @@ int32_t BlockCholesky::parent_supernode(int32_t s) const {
 }
 
 void BlockCholesky::inverse_block(int32_t column, Span<BlockVector> work, Mat7* out) {
-  const SupernodalKernels& kernels = UNISIM_DISPATCH(kSupernodal);
-  const Supernodes S = supernodes();
+  const InverseTask task = {supernodes(), blocks_.data(), work.data(), place_.data()};
   const Span<int32_t> child = position_;  // the path downwards
-  const int32_t own = of_column_[column];
-  int32_t root = own;
-  child[own] = -1;
-  for (int32_t s = parent_supernode(own); s != -1; s = parent_supernode(s)) {
-    child[s] = root;
-    root = s;
+  int32_t top = -1;
+  for (int32_t s = of_column_[column]; s != -1 && stale_[s] != Staleness::kFactor;
+       s = parent_supernode(s)) {
+    child[s] = top;
+    top = s;
   }
-  for (int unit = 0; unit < kTangentDim; ++unit) {
-    for (int32_t s = root; s != -1; s = child[s]) {
-      for (int32_t j = first_column_[s]; j < first_column_[s + 1]; ++j) work[j] = BlockVector{};
-    }
-    work[column].v[unit] = 1.0;
-    for (int32_t s = own; s != -1; s = parent_supernode(s)) {
-      kernels.forward(S, blocks_.data(), s, s + 1, work.data());
-    }
-    for (int32_t s = root; s != -1; s = child[s]) {
-      kernels.backward(S, blocks_.data(), s, s + 1, work.data());
-    }
-    for (int row = 0; row < kTangentDim; ++row) (*out)(row, unit) = work[column].v[row];
+  for (int32_t s = top; s != -1; s = child[s]) {
+    UNISIM_DISPATCH(invert_supernode)(task, s);
+    stale_[s] = Staleness::kFactor;
   }
+  *out = as_matrix(blocks_[diagonal_[column]]);
 }
 
 }  // namespace unisim

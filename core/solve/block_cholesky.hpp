@@ -76,7 +76,9 @@ class BlockCholesky {
   /// rows below is larger than `least`: a change dies out on its way down the tree.
   void backward(Span<BlockVector> x, double least);
 
-  /// Diagonal block of (L L')^-1; touches only the path from the column to the root of the tree.
+  /// Diagonal block of (L L')^-1. Needs a factor; turns what of it lies between the column and the
+  /// root of the tree into the inverse, once: that part is stale then, and solving needs
+  /// factorize() again. All columns together cost about three times a factorisation.
   /// @param work columns vectors, overwritten
   void inverse_block(int32_t column, Span<BlockVector> work, Mat7* out);
 

@@ -294,9 +294,9 @@ void LevenbergMarquardt::restore_poses(Graph* graph, double least_move) const {
 
 Status LevenbergMarquardt::marginal_covariance(const Graph& graph, int32_t node, Mat7* covariance) {
   if (!graph.has_node(node) || graph.node(node).fixed) return Status::kInvalidArgument;
-  Status status = prepare(graph, LmObserver());
-  if (!is_ok(status)) return status;
   if (undamped_revision_ != graph.revision()) {
+    Status status = prepare(graph, LmObserver());
+    if (!is_ok(status)) return status;
     undamped_revision_ = 0;
     linearize_all(graph);
     status = factorize(0.0);

@@ -61,8 +61,8 @@ class LevenbergMarquardt {
   Status optimize(Graph* graph, const LmOptions& options, LmReport* report);
 
   /// Marginal covariance of a free node at the present poses: its 7x7 block of H^-1, in the node's
-  /// tangent space. Costs a factorisation when poses have changed since the last call, then one
-  /// solve with seven right-hand sides.
+  /// tangent space. Costs a factorisation when the graph has changed since the last call, then what
+  /// of the inverse lies above the node in the elimination tree and is not there yet.
   /// @return kOk; kInvalidArgument for an unknown or fixed node; kNumerical when H is singular;
   ///         kCapacity and kNotReady as optimize()
   Status marginal_covariance(const Graph& graph, int32_t node, Mat7* covariance);

@@ -3,33 +3,13 @@
 #include "core/solve/supernodal_factor.hpp"
 
 #include "core/solve/block_kernels.hpp"
+#include "core/solve/supernode_run.hpp"
 
 namespace unisim {
 namespace UNISIM_ISA {
 namespace {
 
 constexpr double kPivotFloor = 1e-13;  // of the diagonal element: below it a pivot is roundoff
-
-// One supernode and its part of L.
-struct Run {
-  UNISIM_ALWAYS_INLINE Run(const Supernodes& S, int32_t s)
-      : first(S.first_column[s]),
-        width(S.first_column[s + 1] - first),
-        row_count(S.row_start[s + 1] - S.row_start[s]),
-        rows(S.rows + S.row_start[s]),
-        offset(S.block_start[s]) {}
-
-  int32_t first;      // column
-  int32_t width;      // columns
-  int32_t row_count;  // below the run
-  const int32_t* rows;
-  int32_t offset;  // of its blocks
-
-  // Blocks of a row: 0 .. width - 1 are those of the triangle, then those below.
-  UNISIM_ALWAYS_INLINE int32_t row_offset(int32_t row) const {
-    return offset + (row < width ? triangle(row) : triangle(width) + (row - width) * width);
-  }
-};
 
 void damp(const Run& J, double lambda, BlockVector* H_diagonal, Block* L) {
   for (int32_t k = 0; k < J.width; ++k) {
@@ -64,7 +44,7 @@ void update(const Run& J, const Run& K, int32_t at, int32_t end_at, const int32_
 
 // Factorises the run's own columns. @return the column that failed, -1 if none
 int32_t finish(const Run& J, double lambda, const BlockVector* H_diagonal, Block* L) {
-  const int32_t row_end = J.width + J.row_count;
+  const int32_t row_end = J.row_end();
   for (int32_t k = 0; k < J.width; ++k) {
     const Block* own = L + J.row_offset(k);
     Block& diagonal = L[J.row_offset(k) + k];

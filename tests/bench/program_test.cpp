@@ -124,6 +124,26 @@ TEST_CASE("depth prints the time of a ratio by size") {
   CHECK(sizes.front().at("ms").get<double>() < sizes.back().at("ms").get<double>());
 }
 
+TEST_CASE("covariance prints the times of one pose and of all, and what it read") {
+  Program program;
+  program.folder().write("triangle.usg",
+                         "node 0 T 1 0 0 0 1 0 0 0 1\nnode 1 T 0 0 0 0 1 0 0 0 1\n"
+                         "node 2 T 0 0 0 0 1 0 0 0 1\nedge v2v 0 1 1 0 0 0 0 1 0 0 0 1\n"
+                         "edge v2v 1 2 1 0 0 0 0 1 0 0 0 1\nedge v2v 0 2 1 0 0 0 0 1 0 0 0 1\n");
+  REQUIRE(program.run("covariance triangle.usg --repeat 2 --json") == 0);
+  const Json result = Json::parse(program.out);
+  CHECK(result.at("poses") == 2);
+  CHECK(result.at("heap_calls") == 0);
+  for (const char* key : {"first_ms", "another_ms", "all_ms"}) {
+    INFO(key);
+    CHECK(result.at(key).at("n") == 2);
+    require_times(result.at(key));
+  }
+  // All in one place nothing mixes: one edge beside two in a row has variance 2/3 in each
+  // direction.
+  CHECK(result.at("trace_sum").get<double>() == Approx(2.0 * 7.0 * 2.0 / 3.0));
+}
+
 TEST_CASE("unisim-bench says in one line what is wrong") {
   Program program;
   program.require_failure("", 2, "subcommand");
@@ -137,4 +157,5 @@ TEST_CASE("unisim-bench says in one line what is wrong") {
                          "node 0 T 0 0 0 0 1 0 0 0 1\nnode 1 T 1 0 0 0 1 0 0 0 1\n"
                          "node 2 T 0 0 0 0 1 0 0 0 1\nedge v2v 0 1 1 0 0 0 0 1 1 0 0 1\n");
   program.require_failure("solver loose.usg", 4, "not positive definite");
+  program.require_failure("covariance loose.usg", 4, "hold one node");
 }

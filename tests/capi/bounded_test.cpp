@@ -15,29 +15,11 @@ namespace {
 constexpr int32_t kKept = 88;  // (window_submaps + 9) window_size
 
 unisim_config small_config() {
-  unisim_config config = default_config();
-  config.window_size = 8;
-  config.window_overlap = 2;
-  config.window_submaps = 2;
+  unisim_config config = small_windows(2);
   config.skeleton_capacity = 8;
   config.max_keyframes = 2;  // as few as there may be
   config.max_loops = 3;
   return config;
-}
-
-std::vector<int32_t> both(int32_t a, int32_t b, int32_t half = 4) {
-  std::vector<int32_t> out;
-  for (int32_t k = 0; k < half; ++k) out.push_back(a + k);
-  for (int32_t k = 0; k < half; ++k) out.push_back(b + k);
-  return out;
-}
-
-void feed(Host& host, World& world, int32_t count) {
-  for (int32_t k = 0; k < count; ++k) {
-    const int32_t submaps = host.info().submaps;
-    host.feed(world, 1);
-    if (host.info().submaps > submaps) host.optimize();
-  }
 }
 
 void feed_pairs(Host& host, World& world, int32_t count) {

@@ -10,34 +10,11 @@ using namespace unisim::test;
 
 namespace {
 
-unisim_config config_of(int32_t window_submaps) {
-  unisim_config config = default_config();
-  config.window_size = 8;
-  config.window_overlap = 2;
-  config.window_submaps = window_submaps;
-  return config;
-}
-
-std::vector<int32_t> both(int32_t a, int32_t b) {
-  std::vector<int32_t> out;
-  for (int32_t k = 0; k < 4; ++k) out.push_back(a + k);
-  for (int32_t k = 0; k < 4; ++k) out.push_back(b + k);
-  return out;
-}
-
 /// Two places put together that are far apart.
 Views false_loop(World& world, int32_t a, int32_t b) {
   Views views = world.views(both(a, b));
   for (size_t k = 4; k < 8; ++k) views.T_submap_kf[k] = views.T_submap_kf[k - 4];
   return views;
-}
-
-void feed(Host& host, World& world, int32_t count) {
-  for (int32_t k = 0; k < count; ++k) {
-    const int32_t submaps = host.info().submaps;
-    host.feed(world, 1);
-    if (host.info().submaps > submaps) host.optimize();
-  }
 }
 
 void optimize(Host& host, int times) {
@@ -59,7 +36,7 @@ void remember(int32_t, const char* text, void* user) {
 
 TEST_CASE("a false loop is suspended after five optimisations, with its reason in the log") {
   std::string log;
-  unisim_config config = config_of(GENERATE(0, 2));
+  unisim_config config = small_windows(GENERATE(0, 2));
   config.log = remember;
   config.log_user = &log;
   World world(100, 12U);
@@ -81,7 +58,7 @@ TEST_CASE("a false loop is suspended after five optimisations, with its reason i
 
 TEST_CASE("a suspended loop is tried again, and stays when it agrees") {
   World world(100, 12U);
-  Host host(config_of(GENERATE(0, 2)));
+  Host host(small_windows(GENERATE(0, 2)));
   feed(host, world, 70);
   const Views bad = false_loop(world, 10, 60);
   const int32_t loop = host.add_loop(bad);
@@ -109,7 +86,7 @@ TEST_CASE("a suspended loop is tried again, and stays when it agrees") {
 
 TEST_CASE("a suspended loop stays so when its keyframes retire") {
   World world(100, 12U);
-  Host host(config_of(2));
+  Host host(small_windows(2));
   feed(host, world, 70);
   const int32_t loop = host.add_loop(false_loop(world, 10, 60));
   REQUIRE(loop >= 0);
@@ -126,7 +103,7 @@ TEST_CASE("the host takes a loop back, before and after it is condensed") {
   const int32_t more = GENERATE(0, 30);
   constexpr Noise kNoise = {0.004, 0.002, 0.02, 0.3};
   World world(100, 12U, kNoise);
-  Host host(config_of(2));
+  Host host(small_windows(2));
   feed(host, world, 70);
   const int32_t loop = host.add_loop(world.views(both(10, 60)));
   REQUIRE(loop >= 0);
@@ -145,7 +122,7 @@ TEST_CASE("the host takes a loop back, before and after it is condensed") {
 
 TEST_CASE("loop calls refuse what is no loop") {
   World world(60, 12U);
-  Host host(config_of(2));
+  Host host(small_windows(2));
   feed(host, world, 40);
   unisim_loop_info info = {};
   CHECK(unisim_get_loop(host, 0, &info) == UNISIM_ERR_ABI_MISMATCH);

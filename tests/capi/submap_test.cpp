@@ -25,12 +25,6 @@ void feed_pairs(Host& host, World& world, int32_t count) {
   }
 }
 
-std::vector<int32_t> ids(int32_t first, int32_t count) {
-  std::vector<int32_t> list(static_cast<size_t>(count));
-  for (int32_t k = 0; k < count; ++k) list[static_cast<size_t>(k)] = first + k;
-  return list;
-}
-
 /// Depth ratios that scatter by 0.35 (median absolute deviation of the log).
 void scatter(Views& views) {
   for (Depth& depth : views.depth) {

@@ -33,12 +33,6 @@ void feed_rejected(Host& host, int32_t count) {
   }
 }
 
-std::vector<int32_t> ids(int32_t first, int32_t count) {
-  std::vector<int32_t> list(static_cast<size_t>(count));
-  for (int32_t k = 0; k < count; ++k) list[static_cast<size_t>(k)] = first + k;
-  return list;
-}
-
 }  // namespace
 
 TEST_CASE("rejected pairs hold the pose, degrade and then lose the track") {

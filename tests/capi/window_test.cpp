@@ -12,35 +12,6 @@ namespace {
 
 constexpr Noise kNoise = {0.004, 0.002, 0.02, 0.3};
 
-unisim_config config_of(int32_t window_submaps) {
-  unisim_config config = default_config();
-  config.window_size = 8;
-  config.window_overlap = 2;
-  config.window_submaps = window_submaps;
-  return config;
-}
-
-std::vector<int32_t> ids(int32_t first, int32_t count) {
-  std::vector<int32_t> out;
-  for (int32_t k = 0; k < count; ++k) out.push_back(first + k);
-  return out;
-}
-
-std::vector<int32_t> both(int32_t a, int32_t b, int32_t half = 4) {
-  std::vector<int32_t> out = ids(a, half);
-  for (const int32_t id : ids(b, half)) out.push_back(id);
-  return out;
-}
-
-/// Feed with an optimisation whenever a window has come.
-void feed(Host& host, World& world, int32_t count) {
-  for (int32_t k = 0; k < count; ++k) {
-    const int32_t submaps = host.info().submaps;
-    host.feed(world, 1);
-    if (host.info().submaps > submaps) host.optimize();
-  }
-}
-
 /// Largest difference of two sessions' poses, relative to the first keyframe.
 double worst_difference(const Host& a, const Host& b, int32_t keyframes) {
   const unisim::Sim3 first_a = from_c(a.pose(0).T_world_kf);
@@ -57,7 +28,7 @@ double worst_difference(const Host& a, const Host& b, int32_t keyframes) {
 }  // namespace
 
 TEST_CASE("exact predictions give exact poses in a sliding window") {
-  unisim_config config = config_of(GENERATE(2, 3, 5));
+  unisim_config config = small_windows(GENERATE(2, 3, 5));
   config.window_overlap = GENERATE(0, 2, 5);
   World world(100, 12U);
   Host host(config);
@@ -75,8 +46,8 @@ TEST_CASE("exact predictions give exact poses in a sliding window") {
 TEST_CASE("without loops the sliding window finds what the full batch finds") {
   World world_a(100, 12U, kNoise);
   World world_b(100, 12U, kNoise);
-  Host batch(config_of(0));
-  Host window(config_of(2));
+  Host batch(small_windows(0));
+  Host window(small_windows(2));
   feed(batch, world_a, 100);
   feed(window, world_b, 100);
   batch.optimize();
@@ -91,8 +62,8 @@ TEST_CASE("without loops the sliding window finds what the full batch finds") {
 TEST_CASE("a loop moves keyframes that have long retired") {
   World world_a(100, 12U, kNoise);
   World world_b(100, 12U, kNoise);
-  Host batch(config_of(0));
-  Host window(config_of(2));
+  Host batch(small_windows(0));
+  Host window(small_windows(2));
   for (Host* host : {&batch, &window}) {
     World& world = host == &batch ? world_a : world_b;
     feed(*host, world, 96);
@@ -115,7 +86,7 @@ TEST_CASE("a loop moves keyframes that have long retired") {
 
 TEST_CASE("a loop whose keyframes have retired goes on holding the map") {
   World world(100, 12U, kNoise);
-  Host host(config_of(2));
+  Host host(small_windows(2));
   feed(host, world, 60);
   const int32_t loop = host.add_loop(world.views(both(2, 40)));
   REQUIRE(loop >= 0);
@@ -135,7 +106,7 @@ TEST_CASE("a loop whose keyframes have retired goes on holding the map") {
 
 TEST_CASE("a false loop is outvoted in the window and behind it") {
   World world(100, 12U);
-  Host host(config_of(2));
+  Host host(small_windows(2));
   feed(host, world, 70);
   Views views = world.views(both(10, 60));
   for (size_t k = 4; k < 8; ++k) views.T_submap_kf[k] = views.T_submap_kf[k - 4];
@@ -148,7 +119,7 @@ TEST_CASE("a false loop is outvoted in the window and behind it") {
 
 TEST_CASE("a retired keyframe has a covariance, a retired submap keeps its measurement") {
   World world(60, 12U, kNoise);
-  Host host(config_of(2));
+  Host host(small_windows(2));
   feed(host, world, 60);
   host.optimize();
   double covariance[49];
@@ -171,7 +142,7 @@ TEST_CASE("a retired keyframe has a covariance, a retired submap keeps its measu
 
 TEST_CASE("a live loop on retired keyframes takes an update") {
   World world(60, 12U);
-  Host host(config_of(2));
+  Host host(small_windows(2));
   feed(host, world, 58);
   const Views bad = world.views(both(3, 54));
   const int32_t loop = host.add_loop(bad);
@@ -190,7 +161,7 @@ TEST_CASE("a live loop on retired keyframes takes an update") {
 
 TEST_CASE("windows over retired keyframes are given up") {
   World world(60, 12U);
-  Host host(config_of(2));
+  Host host(small_windows(2));
   host.add_keyframe();
   for (int32_t id = 1; id < 40; ++id) {
     host.add_keyframe();
@@ -212,7 +183,7 @@ TEST_CASE("windows over retired keyframes are given up") {
 TEST_CASE("refused windows leave a longer link") {
   const int32_t refused = GENERATE(1, 2, 6);
   World world(100, 12U);
-  Host host(config_of(2));
+  Host host(small_windows(2));
   int32_t left_out = 0;
   for (int32_t id = 0; id < 100; ++id) {
     host.add_keyframe();
@@ -235,7 +206,7 @@ TEST_CASE("refused windows leave a longer link") {
 
 TEST_CASE("segments join behind the window too") {
   World world(100, 12U);
-  Host host(config_of(2));
+  Host host(small_windows(2));
   feed(host, world, 40);
   host.add_keyframe();
   REQUIRE(host.reject_pair() == UNISIM_OK);
@@ -262,7 +233,7 @@ TEST_CASE("segments join behind the window too") {
 }
 
 TEST_CASE("a full skeleton merges and the map stays right") {
-  unisim_config config = config_of(2);
+  unisim_config config = small_windows(2);
   config.skeleton_capacity = 8;
   World world(200, 12U);
   Host host(config);
@@ -276,8 +247,8 @@ TEST_CASE("a full skeleton merges and the map stays right") {
 }
 
 TEST_CASE("a loop corrects a full skeleton almost as it does the full batch") {
-  Host batch(config_of(0));
-  unisim_config config = config_of(2);
+  Host batch(small_windows(0));
+  unisim_config config = small_windows(2);
   config.skeleton_capacity = 8;
   Host window(config);
   World world_a(200, 12U, kNoise);
@@ -300,7 +271,7 @@ TEST_CASE("a loop corrects a full skeleton almost as it does the full batch") {
 
 TEST_CASE("window_submaps is 0 or at least 2") {
   for (const int32_t value : {-1, 1, 65}) {
-    const unisim_config config = config_of(value);
+    const unisim_config config = small_windows(value);
     size_t size = 0;
     CHECK(unisim_arena_size(&config, &size) == UNISIM_ERR_INVALID_ARGUMENT);
   }

@@ -194,6 +194,34 @@ void Host::feed(World& world, int32_t count) {
   }
 }
 
+unisim_config small_windows(int32_t window_submaps) {
+  unisim_config config = default_config();
+  config.window_size = 8;
+  config.window_overlap = 2;
+  config.window_submaps = window_submaps;
+  return config;
+}
+
+std::vector<int32_t> ids(int32_t first, int32_t count) {
+  std::vector<int32_t> out;
+  for (int32_t k = 0; k < count; ++k) out.push_back(first + k);
+  return out;
+}
+
+std::vector<int32_t> both(int32_t a, int32_t b, int32_t half) {
+  std::vector<int32_t> out = ids(a, half);
+  for (const int32_t id : ids(b, half)) out.push_back(id);
+  return out;
+}
+
+void feed(Host& host, World& world, int32_t count) {
+  for (int32_t k = 0; k < count; ++k) {
+    const int32_t submaps = host.info().submaps;
+    host.feed(world, 1);
+    if (host.info().submaps > submaps) host.optimize();
+  }
+}
+
 double worst_position_error(const Host& host, const World& world, int32_t keyframes) {
   const Sim3 first = from_c(host.pose(0).T_world_kf);
   double worst = 0.0;

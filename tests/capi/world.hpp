@@ -109,6 +109,15 @@ class Host {
 };
 
 unisim_config default_config();
+/// Windows of 8 keyframes that overlap by 2; 0 window_submaps: the full batch.
+unisim_config small_windows(int32_t window_submaps);
+
+std::vector<int32_t> ids(int32_t first, int32_t count);
+/// Keyframes of a loop: `half` from a and `half` from b on.
+std::vector<int32_t> both(int32_t a, int32_t b, int32_t half = 4);
+
+/// Feed `count` more keyframes and optimise whenever a window has come.
+void feed(Host& host, World& world, int32_t count);
 
 /// Largest distance between a keyframe's position and the truth carried into the session's world by
 /// the first keyframe; lengths of the true world.

@@ -16,7 +16,6 @@
 #include <thread>
 
 namespace unisim::testing {
-namespace fs = std::filesystem;
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -86,17 +85,6 @@ ProgramResult run(const std::string& program, const std::vector<std::string>& ar
 }
 
 }  // namespace
-
-TempFolder::TempFolder() {
-  std::string name = (fs::temp_directory_path() / "unisim-replay-test-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-TempFolder::~TempFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
 
 ProgramResult run_replay(const std::vector<std::string>& arguments,
                          const Disturbance& disturbance) {

@@ -2,9 +2,10 @@
 // Runs the programs under test and keeps their files in a folder of its own.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
+
+#include "tests/support/temp_folder.hpp"
 
 namespace unisim::testing {
 
@@ -12,19 +13,6 @@ struct ProgramResult {
   int code = -1;    ///< exit code, 128 + n when signal n ended it
   std::string out;  ///< stdout
   std::string err;  ///< stderr
-};
-
-/// A fresh folder, removed at the end.
-class TempFolder {
- public:
-  TempFolder();
-  ~TempFolder();
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
 };
 
 /// Limits and disturbances of a run.

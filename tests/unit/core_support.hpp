@@ -141,16 +141,22 @@ class Assembled {
     }
     return H.selfadjointView<Eigen::Lower>();
   }
-  /// Put H where a factorisation wants it,.
+  /// Put H where a factorisation wants it.
   void copy_to(unisim::BlockCholesky& cholesky) const {
     cholesky.mark_all_stale();
+    copy_stale_to(cholesky);
+  }
+  /// The same for stale columns only.
+  void copy_stale_to(unisim::BlockCholesky& cholesky) const {
     cholesky.clear_stale();
     const unisim::Assembly target = cholesky.assembly();
     for (int32_t j = 0; j < columns_; ++j) {
+      if (!target.wants(j)) continue;
       target.blocks[target.diagonal[j]] = blocks_[static_cast<size_t>(j)];
-    }
-    for (int32_t p = 0; p < static_cast<int32_t>(rows_.size()); ++p) {
-      target.blocks[target.off_diagonal[p]] = blocks_[static_cast<size_t>(columns_ + p)];
+      for (int32_t p = start_[static_cast<size_t>(j)]; p < start_[static_cast<size_t>(j) + 1];
+           ++p) {
+        target.blocks[target.off_diagonal[p]] = blocks_[static_cast<size_t>(columns_ + p)];
+      }
     }
   }
   unisim::Block& diagonal(int32_t column) { return blocks_[static_cast<size_t>(column)]; }

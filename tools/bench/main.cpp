@@ -8,6 +8,7 @@
 
 #include "drivers/replay/text_file.hpp"
 #include "tools/bench/depth/depth_command.hpp"
+#include "tools/bench/solver/covariance_command.hpp"
 #include "tools/bench/solver/solver_command.hpp"
 #include "tools/bench/solver/update_command.hpp"
 #include "tools/bench/walk/walk_command.hpp"
@@ -50,6 +51,15 @@ void add_updates(CLI::App* app, UpdateSettings* settings) {
       ->add_option("--relinearize", settings->relinearize,
                    "edges that have changed less keep their part of H; 0: none does")
       ->check(CLI::NonNegativeNumber);
+  command->add_flag("--json", settings->json, "one line of JSON");
+}
+
+void add_covariance(CLI::App* app, CovarianceSettings* settings) {
+  CLI::App* command =
+      app->add_subcommand("covariance", "Covariances of a pose graph: of one pose and of all");
+  command->add_option("graph", settings->graph, "GRAPH.usg or GRAPH.g2o")->required();
+  command->add_option("--repeat", settings->repeat, "measurements, their median is shown")
+      ->check(CLI::PositiveNumber);
   command->add_flag("--json", settings->json, "one line of JSON");
 }
 
@@ -102,6 +112,8 @@ int main(int argc, char** argv) {
   add_solver(&app, &solver);
   UpdateSettings updates;
   add_updates(&app, &updates);
+  CovarianceSettings covariance;
+  add_covariance(&app, &covariance);
   WalkSettings walk;
   bool walk_json = false;
   add_window(&app, &walk, &walk_json);
@@ -111,6 +123,7 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     if (app.got_subcommand("window")) return walk_command(walk, walk_json);
     if (app.got_subcommand("updates")) return update_command(updates);
+    if (app.got_subcommand("covariance")) return covariance_command(covariance);
     if (app.got_subcommand("depth")) return depth_command(depth);
     return solver_command(solver);
   } catch (const CLI::CallForHelp&) {
