@@ -9,6 +9,7 @@
 
 #include "drivers/onnx/config.hpp"
 #include "drivers/onnx/creation.hpp"
+#include "drivers/onnx/memory_use.hpp"
 #include "drivers/onnx/models.hpp"
 #include "drivers/onnx/onnx.h"
 #include "drivers/onnx/role.hpp"
@@ -16,8 +17,6 @@
 namespace unisim::onnx {
 namespace {
 
-// Windows wait for the pairs after them: a few keyframes more than a window are kept.
-constexpr int32_t kSpareViews = 4;
 // Runs that fail one after another mean that the device is gone, not that one input was bad.
 constexpr int32_t kMaxFailures = 3;
 
@@ -25,14 +24,13 @@ struct OnnxPredictor {
   unisim_predictor table{};  // first: the table's address is the predictor's
   Config config;
   Models models;
-  std::shared_ptr<Views> pair_views;
-  std::shared_ptr<Views> window_views;
   std::unique_ptr<Role> pair;
   std::unique_ptr<Role> window;
   unisim_image shape{};  // every image's size
   int64_t last_keyframe_frame = -1;
   int32_t keyframes = 0;
-  int32_t failures = 0;
+  int32_t failures = 0;         // of predictions, in a row
+  int32_t encode_failures = 0;  // of keyframes, in a row
   int64_t windows = 0;
   double focal_px = 0;
   std::string message;
@@ -66,18 +64,15 @@ std::string size_text(const unisim_image& image) {
 /// What follows from the size of the images is made with the first one.
 void take_shape(OnnxPredictor* me, const unisim_image& image) {
   me->shape = image;
-  const int32_t capacity = me->models.window_size + kSpareViews;
-  const auto make_views = [&](const Model& model, int32_t kept) {
-    return std::make_shared<Views>(model.contract(), image.width, image.height, kept,
-                                   model.view_floats());
-  };
-  const bool shared = me->models.pair == me->models.window;
-  me->window_views = make_views(*me->models.window, capacity);
-  me->pair_views = shared ? me->window_views : make_views(*me->models.pair, kSpareViews);
+  Models& models = me->models;
+  models.window_views->set_image_size(image.width, image.height);
+  if (models.pair_views != models.window_views) {
+    models.pair_views->set_image_size(image.width, image.height);
+  }
   const double least = me->config.min_pose_confidence;
-  me->pair = std::make_unique<Role>(me->models.pair, me->pair_views, 2, least);
+  me->pair = std::make_unique<Role>(models.pair, models.pair_views, 2, least);
   me->window =
-      std::make_unique<Role>(me->models.window, me->window_views, me->models.window_size, least);
+      std::make_unique<Role>(models.window, models.window_views, models.window_size, least);
 }
 
 bool accept_image(OnnxPredictor* me, const unisim_image& image) {
@@ -119,9 +114,16 @@ int keyframe(unisim_predictor* predictor, const unisim_frame* frame, int32_t id)
     }
     ++me->keyframes;
     me->last_keyframe_frame = frame->index;
-    me->pair_views->add(id, frame->image);
-    if (me->window_views != me->pair_views) me->window_views->add(id, frame->image);
-    return UNISIM_PREDICTION_OK;
+    // What could not be encoded is told by the predictions that need it.
+    Answer answer = me->models.window_views->add(id, frame->image);
+    if (me->models.pair_views != me->models.window_views) {
+      Answer other = me->models.pair_views->add(id, frame->image);
+      if (other.run_failed) answer = std::move(other);
+    }
+    me->encode_failures = answer.run_failed ? me->encode_failures + 1 : 0;
+    if (me->encode_failures < kMaxFailures) return UNISIM_PREDICTION_OK;
+    me->message = std::move(answer.problem);
+    return UNISIM_PREDICTION_FAILED;
   });
 }
 
@@ -173,12 +175,9 @@ void info(unisim_predictor* predictor, unisim_predictor_info* out) {
   *out = {};
   out->focal_px = me->focal_px;
   out->initialised = me->focal_px > 0 ? 1 : 0;
-  out->state_bytes = me->models.pair->bytes();
-  if (me->models.window != me->models.pair) out->state_bytes += me->models.window->bytes();
+  out->state_bytes = me->models.bytes();
   if (me->pair == nullptr) return;
-  out->state_bytes +=
-      me->pair_views->bytes() + me->pair->outputs().bytes() + me->window->outputs().bytes();
-  if (me->window_views != me->pair_views) out->state_bytes += me->window_views->bytes();
+  out->state_bytes += me->pair->outputs().bytes() + me->window->outputs().bytes();
 }
 
 const char* message(unisim_predictor* predictor) { return self(predictor)->message.c_str(); }
@@ -210,3 +209,11 @@ const char* unisim_onnx_note(const unisim_predictor* predictor, int32_t index) {
   const auto at = static_cast<size_t>(index);
   return index >= 0 && at < notes.size() ? notes[at].c_str() : nullptr;
 }
+
+int64_t unisim_onnx_encoder_runs(const unisim_predictor* predictor) {
+  const auto& encoders = unisim::onnx::self(predictor)->models.encoders;
+  return std::accumulate(encoders.begin(), encoders.end(), int64_t{0},
+                         [](int64_t sum, const auto& encoder) { return sum + encoder->runs(); });
+}
+
+int64_t unisim_onnx_peak_before_bytes() { return unisim::onnx::peak_before_reset_bytes(); }

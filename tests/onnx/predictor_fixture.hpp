@@ -15,6 +15,9 @@ namespace unisim::testing {
 
 std::string model_file(const std::string& name);
 
+/// All bytes of a file.
+std::string file_content(const std::string& path);
+
 /// Why no test that runs a model can run here, "" when it can.
 std::string missing_runtime();
 

@@ -123,6 +123,14 @@ TEST_CASE("a run repeats bit for bit, and so does its recording") {
   require_same_bytes(folder / "first", folder / "recorded");
 }
 
+TEST_CASE("a model in two files gives the trajectory of the one file, byte for byte") {
+  UNISIM_SKIP_WITHOUT_RUNTIME();
+  const TempFolder folder;
+  run("0.3", folder / "whole", decoder());
+  run("0.3", folder / "split", decoder("decoder_split.onnx"));
+  require_same_bytes(folder / "whole", folder / "split");
+}
+
 TEST_CASE("a recording is asked for the windows it holds, whatever their size was") {
   UNISIM_SKIP_WITHOUT_RUNTIME();
   const TempFolder folder;
@@ -195,10 +203,13 @@ TEST_CASE("options and exit codes") {
   CHECK(code({"--predictor", "onnx"}) == 2);
   CHECK(code({"--predictor", "onnx", "--model-2v", model_file("pair.onnx")}) == 2);
   CHECK(code({"--model", model_file("decoder.onnx")}) == 2);
+  CHECK(code({"--model-encoder", model_file("split.encoder.onnx")}) == 2);
   CHECK(code(with(decoder(), {"--onnx-runtime", "/nowhere.so"})) == 4);
   if (!missing_runtime().empty()) return;
   CHECK(code(with(decoder(), {"--provider", "nonesuch"})) == 4);
   CHECK(code(decoder("no_metadata.onnx")) == 3);
+  CHECK(code(decoder("split_pair.onnx")) == 3);
+  CHECK(code(with(decoder(), {"--model-encoder", model_file("split.encoder.onnx")})) == 2);
 }
 
 TEST_CASE("time to load the tiny model and predict once") {
