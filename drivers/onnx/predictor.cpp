@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Models in ONNX format behind the table of drivers/predictor.h.
-#include <cstdio>
 #include <exception>
 #include <memory>
 #include <new>
@@ -12,7 +11,9 @@
 #include "drivers/onnx/memory_use.hpp"
 #include "drivers/onnx/models.hpp"
 #include "drivers/onnx/onnx.h"
+#include "drivers/onnx/refused_pairs.hpp"
 #include "drivers/onnx/role.hpp"
+#include "drivers/onnx/window_role.hpp"
 
 namespace unisim::onnx {
 namespace {
@@ -25,7 +26,8 @@ struct OnnxPredictor {
   Config config;
   Models models;
   std::unique_ptr<Role> pair;
-  std::unique_ptr<Role> window;
+  std::unique_ptr<RefusedPairs> refused_pairs;
+  std::unique_ptr<WindowRole> window;
   unisim_image shape{};  // every image's size
   int64_t last_keyframe_frame = -1;
   int32_t keyframes = 0;
@@ -71,8 +73,9 @@ void take_shape(OnnxPredictor* me, const unisim_image& image) {
   }
   const double least = me->config.min_pose_confidence;
   me->pair = std::make_unique<Role>(models.pair, models.pair_views, 2, least);
-  me->window =
-      std::make_unique<Role>(models.window, models.window_views, models.window_size, least);
+  me->window = std::make_unique<WindowRole>(
+      std::make_unique<Role>(models.window, models.window_views, models.window_size, least),
+      me->refused_pairs.get());
 }
 
 bool accept_image(OnnxPredictor* me, const unisim_image& image) {
@@ -127,7 +130,8 @@ int keyframe(unisim_predictor* predictor, const unisim_frame* frame, int32_t id)
   });
 }
 
-int predict(OnnxPredictor* me, Role* role, const int32_t* ids, int32_t count) {
+template <typename AnyRole>
+int predict(OnnxPredictor* me, AnyRole* role, const int32_t* ids, int32_t count) {
   if (role == nullptr) return UNISIM_PREDICTION_PENDING;
   Answer answer = role->predict(ids, count);
   if (answer.problem.empty()) {
@@ -144,6 +148,8 @@ int two_view(unisim_predictor* predictor, int32_t i, int32_t j, unisim_pair_pred
   return guarded(predictor, [&](OnnxPredictor* me) {
     const int32_t ids[2] = {i, j};
     const int status = predict(me, me->pair.get(), ids, 2);
+    if (status == UNISIM_PREDICTION_PENDING) return status;
+    me->refused_pairs->settle(j, status != UNISIM_PREDICTION_OK);
     if (status != UNISIM_PREDICTION_OK) return status;
     const Outputs& outputs = me->pair->outputs();
     *out = {outputs.T_0_view()[1], outputs.maps()[0], outputs.maps()[1], outputs.focal_px(), 0.0};
@@ -162,10 +168,15 @@ int multi_view(unisim_predictor* predictor, const int32_t* ids, int32_t count,
     }
     const int status = predict(me, me->window.get(), ids, count);
     if (status != UNISIM_PREDICTION_OK) return status;
-    const Outputs& outputs = me->window->outputs();
-    *out = {
-        count, ids,          outputs.T_0_view().data(), outputs.maps().data(), outputs.focal_px(),
-        0.0,   me->windows++};
+    const WindowRole& window = *me->window;
+    *out = {window.count(),
+            window.ids(),
+            window.outputs().T_0_view().data(),
+            window.outputs().maps().data(),
+            window.outputs().focal_px(),
+            0.0,
+            me->windows++,
+            window.remark().empty() ? nullptr : window.remark().c_str()};
     return status;
   });
 }
@@ -194,6 +205,7 @@ unisim_predictor* unisim_onnx_create(const unisim_onnx_config* config, int32_t* 
     auto made = std::make_unique<o::OnnxPredictor>();
     made->config = o::read_config(*config);
     made->models = o::load_models(made->config);
+    made->refused_pairs = std::make_unique<o::RefusedPairs>(made->models.window_views->capacity());
     made->table = {"onnx",  1,       o::observe, o::keyframe, o::two_view, o::multi_view,
                    nullptr, nullptr, nullptr,    o::info,     o::message,  o::destroy};
     return &made.release()->table;

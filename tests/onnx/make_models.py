@@ -191,13 +191,14 @@ def decoder_encoder():
     return g
 
 
-def decoder(height: int, width: int, nan_above: float | None = None, split: bool = False):
+def decoder(height: int, width: int, nan_above: float | None = None, nan_of: str = "first", split: bool = False):
     """Reads depth and pose out of frames rendered with `unisim-synth --encode`.
 
     Every inference is in a unit of its own: lengths are multiplied by
     exp(spread sqrt(2) sin(2 pi sum_k (k + 1) share_k)), share and spread written in the frames.
-    With nan_above, depth is not a number where the first view's share is above it. Split, it takes the
-    features of decoder_encoder().
+    With nan_above, depth is not a number where the share of the first view, or of any, is above it: a
+    network that a place in the window or one image upsets. Split, it takes the features of
+    decoder_encoder().
     """
     g = Graph()
     number = "features" if split else whole_numbers(g)
@@ -225,7 +226,10 @@ def decoder(height: int, width: int, nan_above: float | None = None, split: bool
     if nan_above is None:
         g.op("Identity", depth, out="depth")
     else:
-        bad = g.op("Greater", g.slice(share, 0, 1, 1), g.constant(nan_above))
+        upset = g.slice(share, 0, 1, 1)
+        if nan_of == "any":
+            upset = g.op("ReduceMax", share, g.constant([1], np.int64), keepdims=1)
+        bad = g.op("Greater", upset, g.constant(nan_above))
         g.op("Where", bad, g.constant(np.nan), depth, out="depth")
     g.op("Add", g.op("Mul", full, g.constant(0)), g.constant(1), out="confidence")
     g.op("Concat", rotation, g.op("Mul", centre, unit), axis=3, out="pose")
@@ -293,6 +297,8 @@ def main() -> int:
     )
     make_split_models(folder, h, w)
     views_model("decoder_nan.onnx", decoder(48, 64, 0.9), "multiview", "V", 48, 64)
+    views_model("decoder_nan_any.onnx", decoder(48, 64, 0.9, "any"), "multiview", "V", 48, 64)
+    views_model("decoder_nan_rare.onnx", decoder(48, 64, 0.98, "any"), "multiview", "V", 48, 64)
     save(
         folder / "descriptor.onnx",
         descriptor(h, w),

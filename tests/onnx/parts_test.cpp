@@ -10,6 +10,7 @@
 #include "drivers/onnx/nearest_rotation.hpp"
 #include "drivers/onnx/peak_memory.hpp"
 #include "drivers/onnx/quantile.hpp"
+#include "drivers/onnx/refused_pairs.hpp"
 #include "drivers/onnx/view_store.hpp"
 #include "tests/support/catch.hpp"
 
@@ -108,4 +109,24 @@ TEST_CASE("a mark of memory that is reset is not forgotten") {
   const int64_t growth = peak_growth_bytes([] {});
   CHECK(peak_before_reset_bytes() > kBytes);
   CHECK(growth < kBytes);
+}
+
+TEST_CASE("of refused pairs in a row the keyframes in the middle are blamed first") {
+  using Blame = RefusedPairs::Blame;
+  RefusedPairs pairs(8);
+  for (int32_t j = 1; j <= 6; ++j) pairs.settle(j, j == 3 || j == 4 || j == 6);
+  const auto blamed = [&](Blame blame) {
+    std::vector<int32_t> ids;
+    for (int32_t id = 0; id <= 7; ++id) {
+      if (pairs.blamed(id, blame)) ids.push_back(id);
+    }
+    return ids;
+  };
+  CHECK(blamed(Blame::kBothPairs) == std::vector<int32_t>{3});
+  CHECK(blamed(Blame::kFirst) == std::vector<int32_t>{2, 3, 5});
+  CHECK(blamed(Blame::kSecond) == std::vector<int32_t>{3, 4, 6});
+  for (int32_t j = 7; j <= 12; ++j) pairs.settle(j, false);
+  CHECK(blamed(Blame::kSecond) == std::vector<int32_t>{6});
+  pairs.settle(14, false);
+  CHECK(blamed(Blame::kSecond).empty());
 }
