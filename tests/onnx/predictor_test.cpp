@@ -13,6 +13,7 @@ constexpr int32_t kHeight = 12;
 
 std::vector<Image> images(int32_t count) {
   std::vector<Image> made;
+  made.reserve(static_cast<size_t>(count));
   for (int32_t i = 0; i < count; ++i) made.push_back(colourful(kWidth, kHeight, i));
   return made;
 }

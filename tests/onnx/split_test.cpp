@@ -19,6 +19,7 @@ bool has(const std::string& text, const std::string& part) {
 
 std::vector<Image> images(int32_t count) {
   std::vector<Image> made;
+  made.reserve(static_cast<size_t>(count));
   for (int32_t i = 0; i < count; ++i) made.push_back(colourful(kWidth, kHeight, i));
   return made;
 }
