@@ -53,6 +53,7 @@ typedef struct unisim_window_prediction {
   double focal_px;                /**< 0 if not known */
   double center_sigma;            /**< see unisim_submap; 0 if not known */
   int64_t token;                  /**< names this window in later revisions */
+  const char* remark;             /**< one line worth telling, NULL for none */
 } unisim_window_prediction;
 
 /** A window the predictor has measured again, better. */

@@ -140,6 +140,7 @@ int Predictions::window(Mapper* mapper, const int32_t* ids, int32_t count,
   out->depth = depths_.data();
   out->focal_px = state.intrinsics.camera.focal_px;
   out->center_sigma = sigma;
+  out->remark = nullptr;
   out->token = windows_.give(state, ids_.data(), ids_.size(), sigma);
   return UNISIM_PREDICTION_OK;
 }

@@ -57,6 +57,7 @@ Config read_config(const unisim_onnx_config& config) {
   read.model_pair = text(config.model_pair, "");
   require(!read.model_pair.empty(), "model_pair is missing: give a model file");
   read.model_window = text(config.model_window, read.model_pair.c_str());
+  read.model_encoder = text(config.model_encoder, "");
   return read;
 }
 

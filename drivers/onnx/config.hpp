@@ -23,7 +23,8 @@ struct Config {
   int32_t keyframe_interval = 0;
   double min_pose_confidence = 0;
   std::string model_pair;
-  std::string model_window;  ///< the same path as model_pair where one model serves both
+  std::string model_window;   ///< the same path as model_pair where one model serves both
+  std::string model_encoder;  ///< "": beside the models that need one
 };
 
 /// @throws OnnxError (UNISIM_ONNX_BAD_CONFIG) naming the first field that makes no sense

@@ -101,15 +101,43 @@ void read_views(const Reader& reader, Contract* contract) {
                                                  {{"0", 0.0}, {"0.5", 0.5}});
 }
 
+/// Which encoder's features a split model takes, or which encoder this is.
+void read_split(const Reader& reader, Contract* contract) {
+  const bool is_encoder = contract->kind == Kind::kEncoder;
+  if (!is_encoder && contract->kind != Kind::kDescriptor) {
+    contract->takes_features = reader.one_of<bool>("input", reader.text_or("input", "images"),
+                                                   {{"images", false}, {"features", true}});
+  }
+  if (!is_encoder && !contract->takes_features) return;
+  contract->encoder = reader.text("encoder");
+  if (contract->encoder.empty() ||
+      contract->encoder.find_first_not_of("0123456789abcdef") != std::string::npos) {
+    reader.fail("encoder", "is \"" + contract->encoder + "\", not digits 0-9 and a-f");
+  }
+}
+
+void read_peak_bytes(const Reader& reader, Contract* contract) {
+  const std::string text = reader.text_or("peak_bytes", "");
+  if (text.empty()) return;
+  const auto peaks = read_peaks(text);
+  if (!peaks) {
+    reader.fail("peak_bytes",
+                "is \"" + text + "\", not VIEWS:BYTES with rising views, as 2:1000000 16:8000000");
+  }
+  contract->peaks = *peaks;
+}
+
 }  // namespace
 
 Contract read_contract(const std::string& path, const MetadataLookup& lookup) {
   const Reader reader(path, lookup);
   reader.one_of<int>("contract", reader.text("contract"), {{"1", 1}});
   Contract contract;
-  contract.kind = reader.one_of<Kind>(
-      "kind", reader.text("kind"),
-      {{"multiview", Kind::kMultiview}, {"pair", Kind::kPair}, {"descriptor", Kind::kDescriptor}});
+  contract.kind = reader.one_of<Kind>("kind", reader.text("kind"),
+                                      {{"multiview", Kind::kMultiview},
+                                       {"pair", Kind::kPair},
+                                       {"descriptor", Kind::kDescriptor},
+                                       {"encoder", Kind::kEncoder}});
   contract.model = reader.text("model");
   contract.license = reader.text("model_license");
   contract.height = reader.whole("height", 1, kMaxSide);
@@ -127,7 +155,9 @@ Contract read_contract(const std::string& path, const MetadataLookup& lookup) {
                                            {"stretch", Resize::kStretch}});
   const std::string pad = reader.text_or("pad_value", "0");
   contract.pad_value = static_cast<float>(reader.numbers("pad_value", pad, 1)[0]);
-  if (contract.kind == Kind::kDescriptor) {
+  read_split(reader, &contract);
+  read_peak_bytes(reader, &contract);
+  if (contract.kind == Kind::kDescriptor || contract.kind == Kind::kEncoder) {
     contract.min_views = contract.max_views = 1;
   } else {
     read_views(reader, &contract);

@@ -7,10 +7,13 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "drivers/onnx/peak_memory.hpp"
 
 namespace unisim::onnx {
 
-enum class Kind { kMultiview, kPair, kDescriptor };
+enum class Kind { kMultiview, kPair, kDescriptor, kEncoder };
 
 /// How an image of another shape is brought to the model's; see framing.hpp.
 enum class Resize { kFit, kCrop, kPad, kStretch };
@@ -30,6 +33,9 @@ struct Contract {
   float pad_value = 0;      ///< of x / 255, before mean and std
   double pixel_center = 0;  ///< coordinate of the first pixel's centre in the model's intrinsics
   bool metric = false;      ///< lengths are metres
+  bool takes_features = false;    ///< of an encoder, in place of images
+  std::string encoder;            ///< identity of that encoder or, of kind encoder, its own
+  std::vector<PeakMemory> peaks;  ///< empty: not stated
 };
 
 /// Value of a metadata key, without value where the file does not have it.

@@ -68,7 +68,9 @@ unisim_onnx_descriptor* unisim_onnx_descriptor_open(const unisim_onnx_config* co
       throw o::OnnxError(UNISIM_ONNX_BAD_MODEL,
                          std::string(path) + ": is not of kind descriptor; give one that is");
     }
-    made->model->warm_up(1, 1, run.memory_bytes);
+    o::MemoryBudget budget;
+    budget.bytes = run.memory_bytes;
+    made->model->warm_up(1, 1, budget);
     made->values.resize(made->model->descriptor().size());
     return made.release();
   });

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -23,9 +24,13 @@ int64_t status_bytes(const std::string& name) {
   return -1;
 }
 
+// The mark is one for the process, and so is what it said before it was reset.
+std::atomic<int64_t> highest_mark{0};
+
 /// Makes the high-water mark start anew. Where the system forbids it, growth counts from the old
 /// mark.
 void reset_peak() {
+  highest_mark = std::max(highest_mark.load(), status_bytes("VmHWM:"));
   std::ofstream file("/proc/self/clear_refs");
   file << "5";
 }
@@ -51,19 +56,21 @@ int64_t peak_growth_bytes(const std::function<void()>& work) {
   return before < 0 || peak < 0 ? 0 : std::max<int64_t>(peak - before, 0);
 }
 
+int64_t peak_before_reset_bytes() { return highest_mark; }
+
 int32_t views_within(int64_t budget, int32_t first, int32_t wanted,
-                     const std::function<int64_t(int32_t)>& measure, int64_t* bytes) {
+                     const std::function<int64_t(int32_t)>& measure) {
   int32_t views = first;
-  *bytes = measure(views);
-  while (views < wanted && *bytes <= budget) {
+  int64_t bytes = measure(views);
+  while (views < wanted && bytes <= budget) {
     const double room =
-        static_cast<double>(budget) / static_cast<double>(std::max<int64_t>(*bytes, 1));
+        static_cast<double>(budget) / static_cast<double>(std::max<int64_t>(bytes, 1));
     const double bound = std::floor(views * std::sqrt(room));
     const int32_t next = static_cast<int32_t>(std::min<double>(bound, wanted));
     if (next <= views) break;
     const int64_t taken = measure(next);
     if (taken > budget) break;
-    *bytes = taken;
+    bytes = taken;
     views = next;
   }
   return views;

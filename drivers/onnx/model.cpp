@@ -3,34 +3,12 @@
 #include "drivers/onnx/model.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include "drivers/onnx/error.hpp"
 #include "drivers/onnx/memory_use.hpp"
+#include "drivers/onnx/tensor_check.hpp"
 
 namespace unisim::onnx {
-namespace {
-
-constexpr int64_t kAny = -1;
-
-std::string shape_text(const std::vector<int64_t>& shape) {
-  std::string text;
-  for (const int64_t size : shape) {
-    text += (text.empty() ? "(" : ",") + (size < 0 ? "V" : std::to_string(size));
-  }
-  return text + ")";
-}
-
-/// Could a tensor declared like this have that shape?
-bool admits(const std::vector<int64_t>& declared, const std::vector<int64_t>& wanted) {
-  if (declared.size() != wanted.size()) return false;
-  for (size_t i = 0; i < wanted.size(); ++i) {
-    if (declared[i] >= 0 && wanted[i] >= 0 && declared[i] != wanted[i]) return false;
-  }
-  return true;
-}
-
-}  // namespace
 
 Model::Model(std::shared_ptr<const Runtime> runtime, const std::string& path,
              const RunOptions& options)
@@ -40,61 +18,53 @@ Model::Model(std::shared_ptr<const Runtime> runtime, const std::string& path,
   check_tensors();
 }
 
-void Model::check_input(const TensorInfo& input) const {
-  const bool one = contract_.kind == Kind::kDescriptor;
-  const std::string name = one ? "image" : "images";
-  std::vector<int64_t> shape = {1, 3, contract_.height, contract_.width};
-  if (!one) shape.insert(shape.begin() + 1, kAny);
-  if (input.name != name) {
-    throw OnnxError(UNISIM_ONNX_BAD_MODEL, path() + ": takes input \"" + input.name +
-                                               "\", the contract has \"" + name + "\" alone");
-  }
-  if (!input.is_float || !admits(input.shape, shape)) {
-    throw OnnxError(UNISIM_ONNX_BAD_MODEL, path() + ": input " + name + " has shape " +
-                                               shape_text(input.shape) +
-                                               ", the contract wants float32 " + shape_text(shape));
-  }
+std::vector<int64_t> Model::input_shape(int64_t views) const {
+  if (contract_.kind == Kind::kDescriptor) return {1, 3, contract_.height, contract_.width};
+  if (contract_.takes_features) return {1, views, tokens_, channels_};
+  return {1, views, 3, contract_.height, contract_.width};
 }
 
-void Model::check_output(const std::string& name, const std::vector<int64_t>& shape) const {
-  const auto& outputs = network_.outputs();
-  const auto found = std::find_if(outputs.begin(), outputs.end(),
-                                  [&](const TensorInfo& output) { return output.name == name; });
-  if (found == outputs.end()) {
-    throw OnnxError(UNISIM_ONNX_BAD_MODEL,
-                    path() + ": has no output " + name + "; export the model with tools/export/");
+void Model::check_input() {
+  if (contract_.takes_features) {
+    const std::vector<int64_t>& shape =
+        require_only_input(network_, "features", {1, kAnySize, kAnySize, kAnySize}).shape;
+    tokens_ = shape[2];
+    channels_ = shape[3];
+    if (tokens_ < 1 || channels_ < 1) {
+      throw OnnxError(UNISIM_ONNX_BAD_MODEL, path() + ": input features has shape " +
+                                                 shape_text(shape) +
+                                                 ", the last two sizes must be fixed");
+    }
+    view_floats_ = tokens_ * channels_;
+    return;
   }
-  if (!found->is_float || !admits(found->shape, shape)) {
-    throw OnnxError(UNISIM_ONNX_BAD_MODEL, path() + ": output " + name + " has shape " +
-                                               shape_text(found->shape) +
-                                               ", the contract wants float32 " + shape_text(shape));
-  }
+  const bool one = contract_.kind == Kind::kDescriptor;
+  require_only_input(network_, one ? "image" : "images", input_shape(kAnySize));
+  view_floats_ = 3 * pixels();
 }
 
 void Model::check_tensors() {
-  if (network_.inputs().empty()) {
-    throw OnnxError(UNISIM_ONNX_BAD_MODEL, path() + ": takes no input");
+  if (contract_.kind == Kind::kEncoder) {
+    throw OnnxError(UNISIM_ONNX_BAD_MODEL,
+                    path() + ": is an encoder; give the model that takes its features");
   }
-  for (const TensorInfo& input : network_.inputs()) check_input(input);
+  check_input();
   if (contract_.kind == Kind::kDescriptor) {
-    check_output("descriptor", {1, kAny});
-    const auto& outputs = network_.outputs();
-    const auto found = std::find_if(outputs.begin(), outputs.end(),
-                                    [](const TensorInfo& o) { return o.name == "descriptor"; });
-    if (found->shape[1] < 1) {
+    const int64_t length = require_output(network_, "descriptor", {1, kAnySize}).shape[1];
+    if (length < 1) {
       throw OnnxError(UNISIM_ONNX_BAD_MODEL,
                       path() + ": output descriptor must have a fixed length");
     }
-    descriptor_.resize(static_cast<size_t>(found->shape[1]));
+    descriptor_.resize(static_cast<size_t>(length));
     return;
   }
-  check_output("depth", {1, kAny, contract_.height, contract_.width});
-  check_output("confidence", {1, kAny, contract_.height, contract_.width});
-  check_output("pose", {1, kAny, 3, 4});
-  check_output("intrinsics", {1, kAny, 3, 3});
+  require_output(network_, "depth", {1, kAnySize, contract_.height, contract_.width});
+  require_output(network_, "confidence", {1, kAnySize, contract_.height, contract_.width});
+  require_output(network_, "pose", {1, kAnySize, 3, 4});
+  require_output(network_, "intrinsics", {1, kAnySize, 3, 3});
   for (const TensorInfo& output : network_.outputs()) {
     if (output.name != "pose_confidence") continue;
-    check_output("pose_confidence", {1, kAny});
+    require_output(network_, output.name, {1, kAnySize});
     confidences_ = output.shape[1] == 1 ? 1 : -1;
   }
 }
@@ -102,7 +72,7 @@ void Model::check_tensors() {
 void Model::take_buffers(int32_t views) {
   const auto count = static_cast<size_t>(views);
   const auto size = static_cast<size_t>(pixels());
-  images_.resize(count * 3 * size);
+  input_.resize(count * static_cast<size_t>(view_floats_));
   if (contract_.kind == Kind::kDescriptor) return;
   depth_.resize(count * size);
   confidence_.resize(count * size);
@@ -118,7 +88,7 @@ void Model::bind(int32_t views) {
   const int64_t width = contract_.width;
   if (contract_.kind == Kind::kDescriptor) {
     bindings_[index] = std::make_unique<Network::Binding>(
-        network_, std::vector<BoundTensor>{{"image", images_.data(), {1, 3, height, width}}},
+        network_, std::vector<BoundTensor>{{"image", input_.data(), input_shape(1)}},
         std::vector<BoundTensor>{
             {"descriptor", descriptor_.data(), {1, static_cast<int64_t>(descriptor_.size())}}});
     return;
@@ -131,51 +101,46 @@ void Model::bind(int32_t views) {
     outputs.push_back(
         {"pose_confidence", pose_confidence_.data(), {1, confidences_ == 1 ? 1 : views}});
   }
+  const char* const input = contract_.takes_features ? "features" : "images";
   bindings_[index] = std::make_unique<Network::Binding>(
-      network_, std::vector<BoundTensor>{{"images", images_.data(), {1, views, 3, height, width}}},
-      outputs);
+      network_, std::vector<BoundTensor>{{input, input_.data(), input_shape(views)}}, outputs);
 }
 
 void Model::measure(int32_t views) {
-  Cost cost;
-  cost.views = views;
-  std::string problem;
-  const auto start = std::chrono::steady_clock::now();
-  cost.bytes = peak_growth_bytes([&] { problem = run(views); });
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-  cost.seconds = spent.count();
-  if (!problem.empty()) {
-    throw OnnxError(UNISIM_ONNX_BAD_MODEL,
-                    path() + ": cannot run " + std::to_string(views) + " view(s): " + problem);
-  }
-  costs_.push_back(cost);
+  costs_.push_back(first_run(path(), views, contract_.peaks, [&] { return run(views); }));
 }
 
-void Model::warm_up(int32_t first, int32_t views, int64_t memory_bytes) {
+int32_t Model::measured_views(int32_t fewest, int32_t most, const MemoryBudget& budget) {
+  return views_within(budget.bytes, fewest, most, [&](int32_t count) {
+    measure(count);
+    return budget.needed(costs_.back());
+  });
+}
+
+int32_t Model::stated_views(int32_t fewest, int32_t most, const MemoryBudget& budget) {
+  measure(fewest);
+  const auto cost = [&](int32_t count) {
+    return Cost{count, 0, peak_bytes(contract_.peaks, count)};
+  };
+  int32_t count = most;
+  while (count > fewest && budget.needed(cost(count)) > budget.bytes) --count;
+  if (count > fewest) costs_.push_back(cost(count));
+  return count;
+}
+
+void Model::warm_up(int32_t first, int32_t views, const MemoryBudget& budget) {
   const int32_t fewest = std::max(first, contract_.min_views);
   const int32_t most = std::max(std::min(views, contract_.max_views), fewest);
   take_buffers(most);
   // The bindings of all numbers of views exist before any run, so that none is made later.
   for (int32_t count = fewest; count <= most; ++count) bind(count);
-  int64_t bytes = 0;
-  max_views_ = views_within(
-      memory_bytes, fewest, most,
-      [this](int32_t count) {
-        measure(count);
-        return costs_.back().bytes;
-      },
-      &bytes);
-  if (bytes > memory_bytes) {
-    throw OnnxError(UNISIM_ONNX_NO_MEMORY,
-                    path() + ": " + std::to_string(fewest) + " view(s) take " +
-                        std::to_string(bytes >> 20) + " MB, more than the " +
-                        std::to_string(memory_bytes >> 20) +
-                        " MB allowed; raise the memory option or export a smaller input size");
-  }
+  max_views_ = contract_.peaks.empty() ? measured_views(fewest, most, budget)
+                                       : stated_views(fewest, most, budget);
+  require_fit(path(), costs_.front(), budget);
 }
 
 int64_t Model::bytes() const {
-  const size_t floats = images_.size() + depth_.size() + confidence_.size() + pose_.size() +
+  const size_t floats = input_.size() + depth_.size() + confidence_.size() + pose_.size() +
                         intrinsics_.size() + pose_confidence_.size() + descriptor_.size();
   return static_cast<int64_t>(floats * sizeof(float));
 }

@@ -9,17 +9,11 @@
 
 #include "drivers/onnx/config.hpp"
 #include "drivers/onnx/contract.hpp"
+#include "drivers/onnx/cost.hpp"
 #include "drivers/onnx/network.hpp"
 #include "drivers/onnx/runtime.hpp"
 
 namespace unisim::onnx {
-
-/// What one inference cost when it was measured at load.
-struct Cost {
-  int32_t views = 0;
-  double seconds = 0;
-  int64_t bytes = 0;  ///< peak memory beyond that of the loaded model
-};
 
 class Model {
  public:
@@ -28,14 +22,18 @@ class Model {
 
   const Contract& contract() const { return contract_; }
   const std::string& path() const { return network_.path(); }
-  /// Floats of one view's input.
-  int64_t view_floats() const { return 3 * pixels(); }
+  /// Of one view's input.
+  int64_t view_floats() const { return view_floats_; }
+  int64_t view_bytes() const { return view_floats_ * static_cast<int64_t>(sizeof(float)); }
+  /// Of its input with so many views: images or the features of an encoder.
+  std::vector<int64_t> input_shape(int64_t views) const;
   int64_t pixels() const { return int64_t{contract_.height} * contract_.width; }
 
-  /// Takes the buffers for up to `views`, runs each number that later comes up and keeps as many as
-  /// fit the memory budget. A number of views that is warm takes no memory of ours later.
+  /// Takes the buffers for up to `views`, runs `first` of them and finds out how many fit the
+  /// memory budget: by running more or, where the file states its memory, from that. Later runs
+  /// take no memory of ours.
   /// @param first  the number that must fit @throws OnnxError (NO_MEMORY) when it does not
-  void warm_up(int32_t first, int32_t views, int64_t memory_bytes);
+  void warm_up(int32_t first, int32_t views, const MemoryBudget& budget);
 
   int32_t max_views() const { return max_views_; }  ///< after warm_up()
   const std::vector<Cost>& costs() const { return costs_; }
@@ -45,7 +43,7 @@ class Model {
   /// more than asked for gets the last one repeated.
   /// @return "" or why it failed, in one line
   std::string run(int32_t views);
-  float* input(int32_t view) { return images_.data() + view * view_floats(); }
+  float* input(int32_t view) { return input_.data() + view * view_floats(); }
 
   // Of the last run.
   const float* depth(int32_t view) const { return depth_.data() + view * pixels(); }
@@ -59,19 +57,22 @@ class Model {
 
  private:
   void check_tensors();
-  void check_input(const TensorInfo& input) const;
-  void check_output(const std::string& name, const std::vector<int64_t>& shape) const;
+  void check_input();
   void take_buffers(int32_t views);
   void bind(int32_t views);
   void measure(int32_t views);
+  int32_t measured_views(int32_t fewest, int32_t most, const MemoryBudget& budget);
+  int32_t stated_views(int32_t fewest, int32_t most, const MemoryBudget& budget);
 
   Network network_;
   Contract contract_;
+  int64_t tokens_ = 0;    // of the features of one view
+  int64_t channels_ = 0;  // of each token
+  int64_t view_floats_ = 0;
   int32_t max_views_ = 0;
   int32_t confidences_ = 0;  // of the pose: 0 none, 1 one, -1 one per view
   int32_t last_views_ = 0;   // of the last run
-  std::vector<float> images_, depth_, confidence_, pose_, intrinsics_, pose_confidence_,
-      descriptor_;
+  std::vector<float> input_, depth_, confidence_, pose_, intrinsics_, pose_confidence_, descriptor_;
   std::vector<std::unique_ptr<Network::Binding>> bindings_;  // by number of views
   std::vector<Cost> costs_;
 };

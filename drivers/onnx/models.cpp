@@ -3,14 +3,17 @@
 #include "drivers/onnx/models.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "drivers/onnx/encoders.hpp"
 #include "drivers/onnx/error.hpp"
+#include "drivers/onnx/model_notes.hpp"
 
 namespace unisim::onnx {
 namespace {
 
 constexpr int32_t kPairViews = 2;
+// Windows wait for the pairs after them: a few keyframes more than a window are kept.
+constexpr int32_t kSpareViews = 4;
 
 void require_kind(const Model& model, bool fits, const char* role, const char* wanted) {
   if (fits) return;
@@ -18,63 +21,85 @@ void require_kind(const Model& model, bool fits, const char* role, const char* w
                   model.path() + ": its kind cannot predict " + role + "; give " + wanted);
 }
 
-std::string licence_line(const Model& model) {
-  const Contract& contract = model.contract();
-  return contract.model + ", " + std::to_string(contract.width) + "x" +
-         std::to_string(contract.height) + ", licence: " + contract.license;
+void load_roles(const Config& config, const std::shared_ptr<const Runtime>& runtime,
+                Models* models) {
+  models->pair = std::make_shared<Model>(runtime, config.model_pair, config.run);
+  require_kind(*models->pair, models->pair->contract().kind != Kind::kDescriptor, "pairs",
+               "a model of kind pair or multiview");
+  models->window = config.model_window == config.model_pair
+                       ? models->pair
+                       : std::make_shared<Model>(runtime, config.model_window, config.run);
+  require_kind(*models->window, models->window->contract().kind == Kind::kMultiview, "windows",
+               "a model of kind multiview, by itself or besides the one for pairs");
 }
 
-std::string cost_line(const Model& model) {
-  std::string line = model.contract().model + ":";
-  for (const Cost& cost : model.costs()) {
-    char text[96];
-    std::snprintf(text, sizeof text, "%s %d views %.3g s and %.0f MB",
-                  line.back() == ':' ? "" : ",", static_cast<int>(cost.views), cost.seconds,
-                  static_cast<double>(cost.bytes) / (1 << 20));
-    line += text;
+/// Suits the size of windows to the budget, which also holds the keyframes kept for them.
+void warm_up(const Config& config, bool views_shared, Models* models) {
+  MemoryBudget budget;
+  budget.bytes = config.run.memory_bytes;
+  if (!views_shared) budget.kept_bytes = kSpareViews * models->pair->view_bytes();
+  for (const auto& encoder : models->encoders) encoder->warm_up(budget);
+  if (models->pair != models->window) models->pair->warm_up(kPairViews, kPairViews, budget);
+  budget.kept_bytes += kSpareViews * models->window->view_bytes();
+  budget.kept_bytes_per_view = models->window->view_bytes();
+  models->window->warm_up(kPairViews, config.window_size, budget);
+  models->window_size = std::min(config.window_size, models->window->max_views());
+}
+
+std::shared_ptr<Views> make_views(const Model& model, const std::shared_ptr<Encoder>& encoder,
+                                  int32_t capacity) {
+  return std::make_shared<Views>(model.contract(), encoder, model.view_floats(), capacity);
+}
+
+void tell(const Config& config, const Runtime& runtime, Models* models) {
+  std::vector<std::string>& notes = models->notes;
+  notes.push_back(runtime.name());
+  const auto tell_model = [&](const Model& model) {
+    notes.push_back(licence_line(model.contract()));
+    notes.push_back(cost_line(model.contract(), "", model.costs()));
+  };
+  tell_model(*models->pair);
+  if (models->window != models->pair) tell_model(*models->window);
+  for (const auto& encoder : models->encoders) {
+    notes.push_back(cost_line(encoder->contract(), " encoder", {encoder->cost()}));
   }
-  return line + " at the first run";
-}
-
-/// Why windows are smaller than asked for, "" when they are not.
-std::string reduction_line(const Model& model, int32_t wanted, int64_t memory_bytes) {
-  const int32_t views = model.max_views();
-  if (views >= wanted) return "";
-  const bool by_model = model.contract().max_views < wanted && views == model.contract().max_views;
-  const std::string why =
-      by_model ? "the model takes no more views"
-               : "more would not fit " + std::to_string(memory_bytes >> 20) + " MB of memory";
-  return "windows have " + std::to_string(views) + " keyframes in place of " +
-         std::to_string(wanted) + ": " + why;
-}
-
-void tell(const Model& model, std::vector<std::string>* notes) {
-  notes->push_back(licence_line(model));
-  notes->push_back(cost_line(model));
+  notes.push_back(ring_line(*models->window_views));
+  if (models->pair_views != models->window_views) notes.push_back(ring_line(*models->pair_views));
+  const std::string reduced =
+      reduction_line(*models->window, config.window_size, config.run.memory_bytes);
+  if (!reduced.empty()) notes.push_back(reduced);
 }
 
 }  // namespace
 
+int64_t Models::bytes() const {
+  int64_t sum = pair->bytes() + window_views->bytes();
+  if (window != pair) sum += window->bytes();
+  if (pair_views != window_views) sum += pair_views->bytes();
+  for (const auto& encoder : encoders) sum += encoder->bytes();
+  return sum;
+}
+
 Models load_models(const Config& config) {
   const auto runtime = Runtime::open(config.run.library);
   Models models;
-  models.pair = std::make_shared<Model>(runtime, config.model_pair, config.run);
-  require_kind(*models.pair, models.pair->contract().kind != Kind::kDescriptor, "pairs",
-               "a model of kind pair or multiview");
-  const bool shared = config.model_window == config.model_pair;
-  models.window =
-      shared ? models.pair : std::make_shared<Model>(runtime, config.model_window, config.run);
-  require_kind(*models.window, models.window->contract().kind == Kind::kMultiview, "windows",
-               "a model of kind multiview, by itself or besides the one for pairs");
-  if (!shared) models.pair->warm_up(kPairViews, kPairViews, config.run.memory_bytes);
-  models.window->warm_up(kPairViews, config.window_size, config.run.memory_bytes);
-  models.window_size = std::min(config.window_size, models.window->max_views());
-  models.notes.push_back(runtime->name());
-  tell(*models.pair, &models.notes);
-  if (!shared) tell(*models.window, &models.notes);
-  const std::string reduced =
-      reduction_line(*models.window, config.window_size, config.run.memory_bytes);
-  if (!reduced.empty()) models.notes.push_back(reduced);
+  load_roles(config, runtime, &models);
+  Encoders encoders(runtime, config.model_encoder, config.run);
+  const auto pair_encoder = encoders.of(*models.pair);
+  const auto window_encoder = encoders.of(*models.window);
+  models.encoders = encoders.loaded();
+  if (!config.model_encoder.empty() && models.encoders.empty()) {
+    throw OnnxError(UNISIM_ONNX_BAD_CONFIG,
+                    "onnx.model_encoder: no model takes the features of an encoder; leave it out");
+  }
+  const bool views_shared =
+      models.pair == models.window || (pair_encoder != nullptr && pair_encoder == window_encoder);
+  warm_up(config, views_shared, &models);
+  models.window_views =
+      make_views(*models.window, window_encoder, models.window_size + kSpareViews);
+  models.pair_views =
+      views_shared ? models.window_views : make_views(*models.pair, pair_encoder, kSpareViews);
+  tell(config, *runtime, &models);
   return models;
 }
 

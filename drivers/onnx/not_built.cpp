@@ -26,6 +26,10 @@ int32_t unisim_onnx_window_size(const unisim_predictor*) { return 0; }
 
 const char* unisim_onnx_note(const unisim_predictor*, int32_t) { return nullptr; }
 
+int64_t unisim_onnx_encoder_runs(const unisim_predictor*) { return 0; }
+
+int64_t unisim_onnx_peak_before_bytes() { return 0; }
+
 unisim_onnx_descriptor* unisim_onnx_descriptor_open(const unisim_onnx_config*, const char*,
                                                     int32_t* problem, char* message,
                                                     size_t capacity) {

@@ -29,7 +29,8 @@ extern "C" {
 typedef struct unisim_onnx_config {
   uint32_t struct_size; /**< sizeof this struct */
   int32_t threads;      /**< of one inference, 0..256; 0: one per core (0) */
-  int32_t memory_mb;    /**< one inference may take; 0: half of the machine's memory (0) */
+  int32_t memory_mb;    /**< one inference and the keyframes kept for it may take; 0: half of the
+                           machine's memory (0) */
   int32_t window_size;  /**< views the caller would like in a window, 2..UNISIM_MAX_VIEWS (16) */
   int32_t keyframe_interval;  /**< advised where the caller chooses keyframes by motion: every N-th
                                  frame, 1..1000 (5) */
@@ -40,6 +41,8 @@ typedef struct unisim_onnx_config {
   const char* provider;       /**< "cpu", "cuda", "tensorrt" or what the library offers ("cpu") */
   const char* library; /**< libonnxruntime to open; NULL: environment UNISIM_ORT_LIB, the folder
                           of tools/bootstrap.sh, the system's (NULL) */
+  const char* model_encoder; /**< encoder of split models; NULL: X.encoder.onnx beside X.onnx (NULL)
+                              */
 } unisim_onnx_config;
 
 /** Defaults for every field.
@@ -67,6 +70,16 @@ int32_t unisim_onnx_window_size(const unisim_predictor* predictor);
  *  @param index     0, 1, 2 ...
  *  @return one line, NULL after the last; valid until destroy() */
 const char* unisim_onnx_note(const unisim_predictor* predictor, int32_t index);
+
+/** Times that encoders of split models ran since they were loaded: once for each keyframe and
+ * encoder.
+ *  @param predictor of unisim_onnx_create()
+ *  @return 0 without encoder */
+int64_t unisim_onnx_encoder_runs(const unisim_predictor* predictor);
+
+/** Measuring a model resets the high-water mark of the process's memory.
+ *  @return the most it said before, in bytes; 0 when no model was measured */
+int64_t unisim_onnx_peak_before_bytes(void);
 
 /** A model of kind descriptor: one image in, one vector of unit length out. */
 typedef struct unisim_onnx_descriptor unisim_onnx_descriptor;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Models in ONNX format behind the table of drivers/predictor.h.
-#include <cstdio>
 #include <exception>
 #include <memory>
 #include <new>
@@ -9,15 +8,16 @@
 
 #include "drivers/onnx/config.hpp"
 #include "drivers/onnx/creation.hpp"
+#include "drivers/onnx/memory_use.hpp"
 #include "drivers/onnx/models.hpp"
 #include "drivers/onnx/onnx.h"
+#include "drivers/onnx/refused_pairs.hpp"
 #include "drivers/onnx/role.hpp"
+#include "drivers/onnx/window_role.hpp"
 
 namespace unisim::onnx {
 namespace {
 
-// Windows wait for the pairs after them: a few keyframes more than a window are kept.
-constexpr int32_t kSpareViews = 4;
 // Runs that fail one after another mean that the device is gone, not that one input was bad.
 constexpr int32_t kMaxFailures = 3;
 
@@ -25,14 +25,14 @@ struct OnnxPredictor {
   unisim_predictor table{};  // first: the table's address is the predictor's
   Config config;
   Models models;
-  std::shared_ptr<Views> pair_views;
-  std::shared_ptr<Views> window_views;
   std::unique_ptr<Role> pair;
-  std::unique_ptr<Role> window;
+  std::unique_ptr<RefusedPairs> refused_pairs;
+  std::unique_ptr<WindowRole> window;
   unisim_image shape{};  // every image's size
   int64_t last_keyframe_frame = -1;
   int32_t keyframes = 0;
-  int32_t failures = 0;
+  int32_t failures = 0;         // of predictions, in a row
+  int32_t encode_failures = 0;  // of keyframes, in a row
   int64_t windows = 0;
   double focal_px = 0;
   std::string message;
@@ -66,18 +66,16 @@ std::string size_text(const unisim_image& image) {
 /// What follows from the size of the images is made with the first one.
 void take_shape(OnnxPredictor* me, const unisim_image& image) {
   me->shape = image;
-  const int32_t capacity = me->models.window_size + kSpareViews;
-  const auto make_views = [&](const Model& model, int32_t kept) {
-    return std::make_shared<Views>(model.contract(), image.width, image.height, kept,
-                                   model.view_floats());
-  };
-  const bool shared = me->models.pair == me->models.window;
-  me->window_views = make_views(*me->models.window, capacity);
-  me->pair_views = shared ? me->window_views : make_views(*me->models.pair, kSpareViews);
+  Models& models = me->models;
+  models.window_views->set_image_size(image.width, image.height);
+  if (models.pair_views != models.window_views) {
+    models.pair_views->set_image_size(image.width, image.height);
+  }
   const double least = me->config.min_pose_confidence;
-  me->pair = std::make_unique<Role>(me->models.pair, me->pair_views, 2, least);
-  me->window =
-      std::make_unique<Role>(me->models.window, me->window_views, me->models.window_size, least);
+  me->pair = std::make_unique<Role>(models.pair, models.pair_views, 2, least);
+  me->window = std::make_unique<WindowRole>(
+      std::make_unique<Role>(models.window, models.window_views, models.window_size, least),
+      me->refused_pairs.get());
 }
 
 bool accept_image(OnnxPredictor* me, const unisim_image& image) {
@@ -119,13 +117,21 @@ int keyframe(unisim_predictor* predictor, const unisim_frame* frame, int32_t id)
     }
     ++me->keyframes;
     me->last_keyframe_frame = frame->index;
-    me->pair_views->add(id, frame->image);
-    if (me->window_views != me->pair_views) me->window_views->add(id, frame->image);
-    return UNISIM_PREDICTION_OK;
+    // What could not be encoded is told by the predictions that need it.
+    Answer answer = me->models.window_views->add(id, frame->image);
+    if (me->models.pair_views != me->models.window_views) {
+      Answer other = me->models.pair_views->add(id, frame->image);
+      if (other.run_failed) answer = std::move(other);
+    }
+    me->encode_failures = answer.run_failed ? me->encode_failures + 1 : 0;
+    if (me->encode_failures < kMaxFailures) return UNISIM_PREDICTION_OK;
+    me->message = std::move(answer.problem);
+    return UNISIM_PREDICTION_FAILED;
   });
 }
 
-int predict(OnnxPredictor* me, Role* role, const int32_t* ids, int32_t count) {
+template <typename AnyRole>
+int predict(OnnxPredictor* me, AnyRole* role, const int32_t* ids, int32_t count) {
   if (role == nullptr) return UNISIM_PREDICTION_PENDING;
   Answer answer = role->predict(ids, count);
   if (answer.problem.empty()) {
@@ -142,6 +148,8 @@ int two_view(unisim_predictor* predictor, int32_t i, int32_t j, unisim_pair_pred
   return guarded(predictor, [&](OnnxPredictor* me) {
     const int32_t ids[2] = {i, j};
     const int status = predict(me, me->pair.get(), ids, 2);
+    if (status == UNISIM_PREDICTION_PENDING) return status;
+    me->refused_pairs->settle(j, status != UNISIM_PREDICTION_OK);
     if (status != UNISIM_PREDICTION_OK) return status;
     const Outputs& outputs = me->pair->outputs();
     *out = {outputs.T_0_view()[1], outputs.maps()[0], outputs.maps()[1], outputs.focal_px(), 0.0};
@@ -160,10 +168,15 @@ int multi_view(unisim_predictor* predictor, const int32_t* ids, int32_t count,
     }
     const int status = predict(me, me->window.get(), ids, count);
     if (status != UNISIM_PREDICTION_OK) return status;
-    const Outputs& outputs = me->window->outputs();
-    *out = {
-        count, ids,          outputs.T_0_view().data(), outputs.maps().data(), outputs.focal_px(),
-        0.0,   me->windows++};
+    const WindowRole& window = *me->window;
+    *out = {window.count(),
+            window.ids(),
+            window.outputs().T_0_view().data(),
+            window.outputs().maps().data(),
+            window.outputs().focal_px(),
+            0.0,
+            me->windows++,
+            window.remark().empty() ? nullptr : window.remark().c_str()};
     return status;
   });
 }
@@ -173,12 +186,9 @@ void info(unisim_predictor* predictor, unisim_predictor_info* out) {
   *out = {};
   out->focal_px = me->focal_px;
   out->initialised = me->focal_px > 0 ? 1 : 0;
-  out->state_bytes = me->models.pair->bytes();
-  if (me->models.window != me->models.pair) out->state_bytes += me->models.window->bytes();
+  out->state_bytes = me->models.bytes();
   if (me->pair == nullptr) return;
-  out->state_bytes +=
-      me->pair_views->bytes() + me->pair->outputs().bytes() + me->window->outputs().bytes();
-  if (me->window_views != me->pair_views) out->state_bytes += me->window_views->bytes();
+  out->state_bytes += me->pair->outputs().bytes() + me->window->outputs().bytes();
 }
 
 const char* message(unisim_predictor* predictor) { return self(predictor)->message.c_str(); }
@@ -195,6 +205,7 @@ unisim_predictor* unisim_onnx_create(const unisim_onnx_config* config, int32_t* 
     auto made = std::make_unique<o::OnnxPredictor>();
     made->config = o::read_config(*config);
     made->models = o::load_models(made->config);
+    made->refused_pairs = std::make_unique<o::RefusedPairs>(made->models.window_views->capacity());
     made->table = {"onnx",  1,       o::observe, o::keyframe, o::two_view, o::multi_view,
                    nullptr, nullptr, nullptr,    o::info,     o::message,  o::destroy};
     return &made.release()->table;
@@ -210,3 +221,11 @@ const char* unisim_onnx_note(const unisim_predictor* predictor, int32_t index) {
   const auto at = static_cast<size_t>(index);
   return index >= 0 && at < notes.size() ? notes[at].c_str() : nullptr;
 }
+
+int64_t unisim_onnx_encoder_runs(const unisim_predictor* predictor) {
+  const auto& encoders = unisim::onnx::self(predictor)->models.encoders;
+  return std::accumulate(encoders.begin(), encoders.end(), int64_t{0},
+                         [](int64_t sum, const auto& encoder) { return sum + encoder->runs(); });
+}
+
+int64_t unisim_onnx_peak_before_bytes() { return unisim::onnx::peak_before_reset_bytes(); }

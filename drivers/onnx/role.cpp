@@ -8,10 +8,9 @@ namespace unisim::onnx {
 
 Answer Role::predict(const int32_t* ids, int32_t count) {
   for (int32_t view = 0; view < count; ++view) {
-    const float* const stored = views_->find(ids[view]);
-    if (stored == nullptr) {
-      return {"keyframe " + std::to_string(ids[view]) + " is not kept any more", false};
-    }
+    const float* stored = nullptr;
+    std::string problem = views_->find(ids[view], &stored);
+    if (!problem.empty()) return {std::move(problem), false};
     std::copy_n(stored, model_->view_floats(), model_->input(view));
   }
   const std::string failure = model_->run(count);

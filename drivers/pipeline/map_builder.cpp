@@ -134,6 +134,9 @@ Step MapBuilder::serve_window(const unisim_request& request, bool* pending) {
   if (answer != UNISIM_PREDICTION_OK) {
     return reject(request, MessageKind::kWindowRejected, predictor_message());
   }
+  if (window.remark != nullptr) {
+    parts_.messages->say(MessageKind::kWindowReduced, request_name(request) + ": " + window.remark);
+  }
   return take_window(request, window, pending);
 }
 

@@ -13,9 +13,13 @@ void Messages::say(const std::string& line) {
 }
 
 void Messages::tell_counts() {
-  constexpr std::array<const char*, kKinds> kNames = {
-      "unreadable frames", "frames of no use to the predictor", "rejected pairs",
-      "rejected windows",  "predictions refused as invalid",    "optimisations without result"};
+  constexpr std::array<const char*, kKinds> kNames = {"unreadable frames",
+                                                      "frames of no use to the predictor",
+                                                      "rejected pairs",
+                                                      "rejected windows",
+                                                      "windows taken in part",
+                                                      "predictions refused as invalid",
+                                                      "optimisations without result"};
   for (size_t kind = 0; kind < kKinds; ++kind) {
     const int64_t more = counts_[kind] - kTold;
     if (more > 0) say("and " + std::to_string(more) + " more " + kNames[kind]);

@@ -16,6 +16,7 @@ enum class MessageKind {
   kUselessFrame,
   kPairRejected,
   kWindowRejected,
+  kWindowReduced,
   kInvalid,
   kSolver
 };
@@ -38,7 +39,7 @@ class Messages {
 
  private:
   static constexpr int64_t kTold = 5;
-  static constexpr size_t kKinds = 6;
+  static constexpr size_t kKinds = 7;
 
   const std::vector<Listener*>& listeners_;
   std::array<int64_t, kKinds> counts_{};

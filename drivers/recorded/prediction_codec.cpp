@@ -167,8 +167,8 @@ Decoded decode_window(std::size_t size, DecodedArrays* arrays, unisim_window_pre
   if (!finite(numbers, 2) || !finite(poses, count)) {
     return fail(Decoded::kNotFinite, "pose, focal length or sigma is not a number", problem);
   }
-  *out = {window->count,        ids,          poses, arrays->depth.data(), window->focal_px,
-          window->center_sigma, window->token};
+  *out = {window->count,        ids,           poses,  arrays->depth.data(), window->focal_px,
+          window->center_sigma, window->token, nullptr};
   return Decoded::kOk;
 }
 

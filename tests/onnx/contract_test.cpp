@@ -81,11 +81,14 @@ TEST_CASE("a key that is needed and missing is named with the file") {
 
 TEST_CASE("a value that makes no sense is named") {
   const std::vector<std::pair<std::string, std::string>> wrong = {
-      {"contract", "2"},       {"kind", "stereo"},     {"height", "0"},     {"width", "15.5"},
-      {"height", "tall"},      {"min_views", "-1"},    {"max_views", "1"},  {"multiple", ""},
-      {"mean", "0 0"},         {"std", "1 1 0"},       {"std", "1 1 1 1"},  {"resize", "squash"},
-      {"pad_value", "white"},  {"confidence", "log"},  {"scale", "inches"}, {"shared_scale", "0"},
-      {"pixel_center", "0.3"}, {"mean", "0 0 0 junk"}, {"std", "nan 1 1"}};
+      {"contract", "2"},      {"kind", "stereo"},      {"height", "0"},
+      {"width", "15.5"},      {"height", "tall"},      {"min_views", "-1"},
+      {"max_views", "1"},     {"multiple", ""},        {"mean", "0 0"},
+      {"std", "1 1 0"},       {"std", "1 1 1 1"},      {"resize", "squash"},
+      {"pad_value", "white"}, {"confidence", "log"},   {"scale", "inches"},
+      {"shared_scale", "0"},  {"peak_bytes", "lots"},  {"peak_bytes", "16:1 2:1"},
+      {"input", "pixels"},    {"pixel_center", "0.3"}, {"mean", "0 0 0 junk"},
+      {"std", "nan 1 1"}};
   for (const auto& [key, value] : wrong) {
     const std::string line = refusal(changed(key, value));
     INFO(key << " = " << value << ": " << line);
@@ -99,4 +102,27 @@ TEST_CASE("a pair model takes two views and says so") {
   CHECK(refusal(metadata).find("unisim.max_views") != std::string::npos);
   metadata["unisim.max_views"] = "2";
   CHECK(read(metadata).kind == Kind::kPair);
+}
+
+TEST_CASE("stated memory is read") {
+  CHECK(read(good()).peaks.empty());
+  const Contract contract = read(changed("peak_bytes", "2:1000 16:9000"));
+  REQUIRE(contract.peaks.size() == 2);
+  CHECK(contract.peaks[1].views == 16);
+  CHECK(contract.peaks[1].bytes == 9000);
+}
+
+TEST_CASE("a model that takes features and an encoder say which encoder") {
+  Metadata metadata = changed("input", "features");
+  CHECK(refusal(metadata).find("unisim.encoder is missing") != std::string::npos);
+  metadata["unisim.encoder"] = "0123abcd";
+  CHECK(read(metadata).takes_features);
+  CHECK(read(metadata).encoder == "0123abcd");
+  metadata["unisim.encoder"] = "not hex";
+  CHECK(refusal(metadata).find("unisim.encoder is \"not hex\"") != std::string::npos);
+  metadata = changed("kind", "encoder");
+  CHECK(refusal(metadata).find("unisim.encoder is missing") != std::string::npos);
+  metadata["unisim.encoder"] = "0123abcd";
+  CHECK(read(metadata).kind == Kind::kEncoder);
+  CHECK_FALSE(read(metadata).takes_features);
 }

@@ -18,6 +18,7 @@ from onnx import TensorProto, helper, numpy_helper
 OPSET = 18
 IR_VERSION = 8  # read by every ONNX Runtime from 1.21
 MAX_VIEWS = 16
+ENCODER = "5c0ffee5"  # identity that the parts of a split model share
 
 # Layout of frames rendered with `unisim-synth --encode`; see tools/synth/README.md.
 ROTATION_STEP = 2.0**-22
@@ -100,9 +101,10 @@ def metadata(kind: str, height: int, width: int) -> dict:
     }
 
 
-def view_shapes(views, height: int, width: int):
+def view_shapes(views, height: int, width: int, features: list[int] | None = None):
+    """Inputs and outputs; features: tokens and channels of a model that takes these."""
     return (
-        [("images", [1, views, 3, height, width])],
+        [("features", [1, views, *features])] if features else [("images", [1, views, 3, height, width])],
         [
             ("depth", [1, views, height, width]),
             ("confidence", [1, views, height, width]),
@@ -124,7 +126,37 @@ def closed_form(views, height: int, width: int):
     mean = g.op("ReduceMean", "images", g.constant([2], np.int64), keepdims=0)
     g.op("Add", mean, g.constant(1), out="depth")
     first = g.slice(g.slice(red, 0, 1, 3), 0, 1, 4)
-    k = g.view_numbers(g.reshape(first, [1, -1, 1, 1]))
+    closed_form_poses(g, g.reshape(first, [1, -1, 1, 1]))
+    return g
+
+
+def closed_form_encoder(width: int, nan_above: float | None = None):
+    """A token for each row: red, then the mean of the channels, of each of its pixels.
+
+    With nan_above, all is not a number where the first pixel's red is above it.
+    """
+    g = Graph()
+    red = g.reshape(g.slice("images", 0, 1, 2), [1, 1, -1, width])
+    mean = g.op("ReduceMean", "images", g.constant([2], np.int64), keepdims=0)
+    both = g.op("Concat", red, mean, axis=3, out=None if nan_above else "features")
+    if nan_above:
+        bad = g.op("Greater", g.slice(g.slice(red, 0, 1, 2), 0, 1, 3), g.constant(nan_above))
+        g.op("Where", bad, g.constant(np.nan), both, out="features")
+    return g
+
+
+def closed_form_of_features(width: int):
+    """The model of closed_form() behind closed_form_encoder()."""
+    g = Graph()
+    g.op("Identity", g.slice("features", 0, width, 3), out="confidence")
+    g.op("Add", g.slice("features", width, 2 * width, 3), g.constant(1), out="depth")
+    closed_form_poses(g, g.slice(g.slice("features", 0, 1, 2), 0, 1, 3))
+    return g
+
+
+def closed_form_poses(g, per_view: str) -> None:
+    """Poses and intrinsics of closed_form(); per_view: any (1,V,1,1)."""
+    k = g.view_numbers(per_view)
     angle = g.op("Mul", k, g.constant(0.1))
     c, s = g.op("Cos", angle), g.op("Sin", angle)
     zero = g.op("Mul", k, g.constant(0))
@@ -142,22 +174,34 @@ def closed_form(views, height: int, width: int):
     K = g.constant([[[[40, 0, 30], [0, 50, 20], [0, 0, 1]]]])
     ones = g.op("Expand", one, g.constant([1, 1, 3, 3], np.int64))
     g.op("Mul", ones, K, out="intrinsics")
+
+
+def whole_numbers(g, out: str | None = None) -> str:
+    """(1,V,3,H,W) of x/255 to whole numbers of 24 bits (1,V,H,W): red is the high byte."""
+    whole = g.op("Round", g.op("Mul", "images", g.constant(255)))
+    weights = g.constant([65536, 256, 1])
+    weights = g.reshape(weights, [1, 1, 3, 1, 1])
+    return g.op("ReduceSum", g.op("Mul", whole, weights), g.constant([2], np.int64), out=out, keepdims=0)
+
+
+def decoder_encoder():
+    """The part of decoder() that sees one image."""
+    g = Graph()
+    whole_numbers(g, "features")
     return g
 
 
-def decoder(height: int, width: int, nan_above: float | None = None):
+def decoder(height: int, width: int, nan_above: float | None = None, nan_of: str = "first", split: bool = False):
     """Reads depth and pose out of frames rendered with `unisim-synth --encode`.
 
     Every inference is in a unit of its own: lengths are multiplied by
     exp(spread sqrt(2) sin(2 pi sum_k (k + 1) share_k)), share and spread written in the frames.
-    With nan_above, depth is not a number where the first view's share is above it.
+    With nan_above, depth is not a number where the share of the first view, or of any, is above it: a
+    network that a place in the window or one image upsets. Split, it takes the features of
+    decoder_encoder().
     """
     g = Graph()
-    # (1,V,3,H,W) of x/255 to whole numbers of 24 bits (1,V,H,W): red is the high byte.
-    whole = g.op("Round", g.op("Mul", "images", g.constant(255)))
-    weights = g.constant([65536, 256, 1])
-    weights = g.reshape(weights, [1, 1, 3, 1, 1])
-    number = g.op("ReduceSum", g.op("Mul", whole, weights), g.constant([2], np.int64), keepdims=0)
+    number = "features" if split else whole_numbers(g)
     header = g.slice(number, 0, 1, 2)  # (1,V,1,W)
 
     def field(first: int, count: int, step: float, offset: float) -> str:
@@ -182,7 +226,10 @@ def decoder(height: int, width: int, nan_above: float | None = None):
     if nan_above is None:
         g.op("Identity", depth, out="depth")
     else:
-        bad = g.op("Greater", g.slice(share, 0, 1, 1), g.constant(nan_above))
+        upset = g.slice(share, 0, 1, 1)
+        if nan_of == "any":
+            upset = g.op("ReduceMax", share, g.constant([1], np.int64), keepdims=1)
+        bad = g.op("Greater", upset, g.constant(nan_above))
         g.op("Where", bad, g.constant(np.nan), depth, out="depth")
     g.op("Add", g.op("Mul", full, g.constant(0)), g.constant(1), out="confidence")
     g.op("Concat", rotation, g.op("Mul", centre, unit), axis=3, out="pose")
@@ -201,6 +248,29 @@ def descriptor(height: int, width: int):
     return g
 
 
+def make_split_models(folder, h: int, w: int) -> None:
+    """Models in two files, X.onnx and X.encoder.onnx; some that do not go together."""
+
+    def encoder(name, graph, rows, columns, tokens, channels):
+        inputs = [("images", [1, 1, 3, rows, columns])]
+        about = metadata("encoder", rows, columns) | {"encoder": ENCODER}
+        save(folder / name, graph, inputs, [("features", [1, 1, tokens, channels])], about)
+
+    def of_features(name, graph, kind, views, rows, columns, tokens, channels, **changes):
+        about = metadata(kind, rows, columns) | {"input": "features", "encoder": ENCODER} | changes
+        save(folder / name, graph, *view_shapes(views, rows, columns, [tokens, channels]), about)
+
+    encoder("split.encoder.onnx", closed_form_encoder(w), h, w, h, 2 * w)
+    encoder("split_nan.encoder.onnx", closed_form_encoder(w, 0.9), h, w, h, 2 * w)
+    encoder("decoder_split.encoder.onnx", decoder_encoder(), 48, 64, 48, 64)
+    of_features("split.onnx", closed_form_of_features(w), "multiview", "V", h, w, h, 2 * w)
+    of_features("split_pair.onnx", closed_form_of_features(w), "pair", 2, h, w, h, 2 * w)
+    of_features("decoder_split.onnx", decoder(48, 64, split=True), "multiview", "V", 48, 64, 48, 64)
+    of_features("split_other.onnx", closed_form_of_features(w), "multiview", "V", h, w, h, 2 * w, encoder="bad1")
+    of_features("split_mean.onnx", closed_form_of_features(w), "multiview", "V", h, w, h, 2 * w, mean="0 0 1")
+    of_features("split_shape.onnx", closed_form_of_features(w), "multiview", "V", h, w, h, 2 * w + 1)
+
+
 def main() -> int:
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent / "models")
     folder.mkdir(parents=True, exist_ok=True)
@@ -216,7 +286,19 @@ def main() -> int:
     views_model("pair.onnx", closed_form(2, h, w), "pair", 2, h, w)
     views_model("eight_views.onnx", closed_form(8, h, w), "multiview", 8, h, w, min_views=8, max_views=8)
     views_model("decoder.onnx", decoder(48, 64), "multiview", "V", 48, 64)
+    views_model(
+        "peak_stated.onnx",
+        closed_form("V", h, w),
+        "multiview",
+        "V",
+        h,
+        w,
+        peak_bytes=f"2:{1 << 20} 16:{1 << 30}",
+    )
+    make_split_models(folder, h, w)
     views_model("decoder_nan.onnx", decoder(48, 64, 0.9), "multiview", "V", 48, 64)
+    views_model("decoder_nan_any.onnx", decoder(48, 64, 0.9, "any"), "multiview", "V", 48, 64)
+    views_model("decoder_nan_rare.onnx", decoder(48, 64, 0.98, "any"), "multiview", "V", 48, 64)
     save(
         folder / "descriptor.onnx",
         descriptor(h, w),

@@ -2,12 +2,20 @@
 // Predictors on the small models of this folder, and images for them.
 #include "tests/onnx/predictor_fixture.hpp"
 
+#include <fstream>
+#include <iterator>
+
 #include "drivers/onnx/error.hpp"
 #include "drivers/onnx/runtime.hpp"
 
 namespace unisim::testing {
 
 std::string model_file(const std::string& name) { return UNISIM_MODELS "/" + name; }
+
+std::string file_content(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
 
 std::string missing_runtime() {
   try {

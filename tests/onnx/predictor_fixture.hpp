@@ -15,6 +15,9 @@ namespace unisim::testing {
 
 std::string model_file(const std::string& name);
 
+/// All bytes of a file.
+std::string file_content(const std::string& path);
+
 /// Why no test that runs a model can run here, "" when it can.
 std::string missing_runtime();
 
@@ -47,7 +50,8 @@ struct Image {
       : pixels(static_cast<size_t>(width) * static_cast<size_t>(height * channels)),
         view{pixels.data(), width, height, width * channels, channels} {}
   uint8_t& at(int32_t x, int32_t y, int32_t channel = 0) {
-    return pixels[static_cast<size_t>(y * view.stride + x * view.format + channel)];
+    const int32_t index = y * view.stride + x * view.format + channel;
+    return pixels[static_cast<size_t>(index)];
   }
   std::vector<uint8_t> pixels;
   unisim_image view;

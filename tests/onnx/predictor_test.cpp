@@ -13,6 +13,7 @@ constexpr int32_t kHeight = 12;
 
 std::vector<Image> images(int32_t count) {
   std::vector<Image> made;
+  made.reserve(static_cast<size_t>(count));
   for (int32_t i = 0; i < count; ++i) made.push_back(colourful(kWidth, kHeight, i));
   return made;
 }
@@ -49,7 +50,7 @@ TEST_CASE("a pair has the closed-form pose, depth and focal length, from either 
   const std::string window = model_file("multiview.onnx");
   unisim_onnx_config config = test_config();
   config.model_window = window.c_str();
-  for (const char* model : {"pair.onnx", "multiview.onnx"}) {
+  for (const char* model : {"pair.onnx", "multiview.onnx", "split.onnx"}) {
     const Opened opened = open_model(model, config);
     INFO(opened.message);
     REQUIRE(opened.predictor != nullptr);
@@ -68,7 +69,7 @@ TEST_CASE("a pair has the closed-form pose, depth and focal length, from either 
 
 TEST_CASE("a window has the closed-form poses, also of a model with more views than it") {
   UNISIM_SKIP_WITHOUT_RUNTIME();
-  for (const char* model : {"multiview.onnx", "eight_views.onnx"}) {
+  for (const char* model : {"multiview.onnx", "eight_views.onnx", "split.onnx"}) {
     const Opened opened = open_model(model);
     REQUIRE(opened.predictor != nullptr);
     unisim_predictor* predictor = opened.predictor.get();

@@ -123,6 +123,14 @@ TEST_CASE("a run repeats bit for bit, and so does its recording") {
   require_same_bytes(folder / "first", folder / "recorded");
 }
 
+TEST_CASE("a model in two files gives the trajectory of the one file, byte for byte") {
+  UNISIM_SKIP_WITHOUT_RUNTIME();
+  const TempFolder folder;
+  run("0.3", folder / "whole", decoder());
+  run("0.3", folder / "split", decoder("decoder_split.onnx"));
+  require_same_bytes(folder / "whole", folder / "split");
+}
+
 TEST_CASE("a recording is asked for the windows it holds, whatever their size was") {
   UNISIM_SKIP_WITHOUT_RUNTIME();
   const TempFolder folder;
@@ -157,6 +165,37 @@ TEST_CASE("a model that returns NaN once in a while costs these keyframes, no mo
   CHECK(degraded > 0);
   CHECK(resumed > 0);
   CHECK(last == "tracking");
+}
+
+TEST_CASE("images that upset a model are left out of their windows, and the map stays one") {
+  UNISIM_SKIP_WITHOUT_RUNTIME();
+  // One image in ten or in fifty makes all of its inference NaN, or one in ten only when it is the
+  // first view. The pairs around it are lost; the window over the gap joins the map again.
+  for (const char* model : {"decoder_nan_any.onnx", "decoder_nan_rare.onnx", "decoder_nan.onnx"}) {
+    const TempFolder folder;
+    const Words every_frame = {sequence("0.3"), "--out",  folder / "out", "--stride", "1",
+                               "--no-report",   "--quiet"};
+    const ProgramResult result = run_replay(with(every_frame, decoder(model)));
+    INFO(model << "\n" << result.err);
+    REQUIRE(result.code == 0);
+    const nlohmann::json figures = summary(folder / "out");
+    CHECK(figures["keyframes"] == 150);
+    CHECK(figures["pairs_refused"] > 0);
+    CHECK(figures["segments"] == 1);
+    CHECK(figures["submaps_refused"] == 0);
+    CHECK(figures["coverage"] > 0.9);
+    CHECK(figures["ate_rmse_m"] < 1e-4 * path_length(sequence("0.3") + "/groundtruth.txt"));
+    CHECK(has(result.err, ": taken without "));
+  }
+}
+
+TEST_CASE("a run with windows taken in part is recorded and repeats bit for bit") {
+  UNISIM_SKIP_WITHOUT_RUNTIME();
+  const TempFolder folder;
+  const std::string file = folder / "predictions";
+  run("0.3", folder / "first", with(decoder("decoder_nan_any.onnx"), {"--record", file}));
+  run("0.3", folder / "recorded", {"--predictor", "recorded", "--predictions", file});
+  require_same_bytes(folder / "first", folder / "recorded");
 }
 
 TEST_CASE("windows are made smaller where the model takes no more views, in one line") {
@@ -195,10 +234,13 @@ TEST_CASE("options and exit codes") {
   CHECK(code({"--predictor", "onnx"}) == 2);
   CHECK(code({"--predictor", "onnx", "--model-2v", model_file("pair.onnx")}) == 2);
   CHECK(code({"--model", model_file("decoder.onnx")}) == 2);
+  CHECK(code({"--model-encoder", model_file("split.encoder.onnx")}) == 2);
   CHECK(code(with(decoder(), {"--onnx-runtime", "/nowhere.so"})) == 4);
   if (!missing_runtime().empty()) return;
   CHECK(code(with(decoder(), {"--provider", "nonesuch"})) == 4);
   CHECK(code(decoder("no_metadata.onnx")) == 3);
+  CHECK(code(decoder("split_pair.onnx")) == 3);
+  CHECK(code(with(decoder(), {"--model-encoder", model_file("split.encoder.onnx")})) == 2);
 }
 
 TEST_CASE("time to load the tiny model and predict once") {

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Models, libraries and providers that are not right: one line that says what, where, what to do.
-#include <fstream>
-#include <iterator>
-
 #include "tests/onnx/predictor_fixture.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -22,11 +19,6 @@ void require_refusal(const Opened& opened, int32_t problem, const std::string& p
   CHECK_FALSE(has(opened.message, "\n"));
 }
 
-std::string content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 }  // namespace
 
 TEST_CASE("a model that breaks the contract is refused by name") {
@@ -43,7 +35,7 @@ TEST_CASE("a model that breaks the contract is refused by name") {
 TEST_CASE("a file that is no model, or not all of one, is refused") {
   UNISIM_SKIP_WITHOUT_RUNTIME();
   const TempFolder folder;
-  const std::string whole = content(model_file("multiview.onnx"));
+  const std::string whole = file_content(model_file("multiview.onnx"));
   REQUIRE(whole.size() > 1000);
   require_refusal(open_model(folder / "missing.onnx"), UNISIM_ONNX_BAD_MODEL, "no such file");
   require_refusal(open_model(folder.write("half.onnx", whole.substr(0, whole.size() / 2))),
@@ -56,7 +48,7 @@ TEST_CASE("a file that is no model, or not all of one, is refused") {
 TEST_CASE("a model with one byte changed is refused or runs, and never crashes") {
   UNISIM_SKIP_WITHOUT_RUNTIME();
   const TempFolder folder;
-  const std::string whole = content(model_file("multiview.onnx"));
+  const std::string whole = file_content(model_file("multiview.onnx"));
   const std::vector<Image> views = {colourful(16, 12, 0), colourful(16, 12, 1)};
   int32_t refused = 0;
   for (size_t at = 5; at < whole.size(); at += 61) {
@@ -109,4 +101,21 @@ TEST_CASE("a configuration that makes no sense is refused by field") {
   config = test_config();
   config.struct_size = 8;
   require_refusal(open_model("multiview.onnx", config), UNISIM_ONNX_BAD_CONFIG, "struct_size");
+}
+
+TEST_CASE("memory that the file states is not measured") {
+  UNISIM_SKIP_WITHOUT_RUNTIME();
+  // 2 views 1 MB, 16 views 1 GB: eight are 439 MB, nine 512 and some.
+  unisim_onnx_config config = test_config();
+  config.memory_mb = 512;
+  const Opened opened = open_model("peak_stated.onnx", config);
+  INFO(opened.message);
+  REQUIRE(opened.predictor != nullptr);
+  CHECK(unisim_onnx_window_size(opened.predictor.get()) == 8);
+  const std::string costs = unisim_onnx_note(opened.predictor.get(), 2);
+  INFO(costs);
+  CHECK(has(costs, "1 MB, 8 view(s) 439 MB, memory as its file states"));
+  config.memory_mb = 1;
+  require_refusal(open_model("peak_stated.onnx", config), UNISIM_ONNX_NO_MEMORY,
+                  "2 view(s) take 2 MB, more than the 1 MB");
 }

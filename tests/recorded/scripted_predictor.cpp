@@ -96,8 +96,14 @@ int multi_view(unisim_predictor* predictor, const int32_t* ids, int32_t count,
   for (double seed : seeds) scripted.poses.push_back(pose_of(seed));
   fill_maps(scripted, seeds);
   scripted.to_revise.push_back(last);
-  *out = {count - 1,    scripted.ids.data(), scripted.poses.data(), scripted.maps.data(), 501.25,
-          1.0 / 1024.0, 100 + last};
+  *out = {count - 1,
+          scripted.ids.data(),
+          scripted.poses.data(),
+          scripted.maps.data(),
+          501.25,
+          1.0 / 1024.0,
+          100 + last,
+          nullptr};
   return UNISIM_PREDICTION_OK;
 }
 

@@ -83,6 +83,9 @@ void add_model_options(CLI::App* app, Options* options, Given* given) {
   app->add_option("--model", given->model, "ONNX file for pairs and windows")->group(group);
   app->add_option("--model-2v", options->model_pair, "ONNX file for pairs")->group(group);
   app->add_option("--model-mv", options->model_window, "ONNX file for windows")->group(group);
+  app->add_option("--model-encoder", options->model_encoder,
+                  "encoder of split models (default: X.encoder.onnx beside X.onnx)")
+      ->group(group);
   app->add_option("--provider", options->provider, "cpu, cuda, tensorrt or what the library has")
       ->capture_default_str()
       ->group(group);
@@ -90,7 +93,7 @@ void add_model_options(CLI::App* app, Options* options, Given* given) {
       ->check(CLI::PositiveNumber)
       ->group(group);
   app->add_option("--model-memory", given->memory_mb,
-                  "MB one inference may take (default: half of the machine's)")
+                  "MB one inference and kept keyframes may take (default: half of the machine's)")
       ->check(CLI::PositiveNumber)
       ->group(group);
   app->add_option("--onnx-runtime", options->onnx_runtime,
@@ -155,8 +158,9 @@ void check(const Options& options) {
   const bool onnx = options.predictor == "onnx";
   require(!onnx || (!options.model_pair.empty() && !options.model_window.empty()),
           "--predictor onnx needs --model FILE, or --model-2v FILE and --model-mv FILE");
-  require(onnx || (options.model_pair.empty() && options.model_window.empty()),
-          "--model, --model-2v and --model-mv go with --predictor onnx");
+  require(onnx || (options.model_pair.empty() && options.model_window.empty() &&
+                   options.model_encoder.empty()),
+          "--model, --model-2v, --model-mv and --model-encoder go with --predictor onnx");
   require(run.keyframes.stride >= 0, "pipeline.stride must be 0 or more");
   require(run.keyframes.min_gap >= 1, "pipeline.min_gap must be 1 or more");
   require(run.keyframes.max_gap >= run.keyframes.min_gap,

@@ -18,8 +18,9 @@ struct Options {
   std::string predictions;  ///< file of --predictor recorded
   std::string record;       ///< file to write, "" for none
   std::string ground_truth;
-  std::string model_pair;    ///< files of --predictor onnx
-  std::string model_window;  ///< the same where one model serves both
+  std::string model_pair;     ///< files of --predictor onnx
+  std::string model_window;   ///< the same where one model serves both
+  std::string model_encoder;  ///< "": beside the models that need one
   std::string provider = "cpu";
   std::string onnx_runtime;  ///< library to open, "" to search
   int64_t from = 0;

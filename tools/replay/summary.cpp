@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "drivers/onnx/onnx.h"
 #include "tools/replay/version.hpp"
 
 namespace unisim::replay {
@@ -119,7 +120,7 @@ std::vector<std::pair<std::string, const pipeline::LatencyHistogram*>> stages(
 int64_t process_peak_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return int64_t{usage.ru_maxrss} * 1024;
+  return std::max(int64_t{usage.ru_maxrss} * 1024, unisim_onnx_peak_before_bytes());
 }
 
 double coverage(const RunData& data) {
