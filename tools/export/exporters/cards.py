@@ -43,6 +43,13 @@ _CARDS = (
         size=(224, 224), mean=(0.5, 0.5, 0.5), std=(0.5, 0.5, 0.5), resize="crop",
         reference_view="none"),
     ModelCard(
+        name="mapanything", module="map_anything_model", package="mapanything",
+        install=_FACEBOOK_INSTALL.format("map-anything") + ", pip install hydra-core "
+        "huggingface_hub; pip install --no-deps uniception==0.1.7",
+        weights="huggingface.co/facebook/map-anything, .../map-anything-apache",
+        license="map-anything: CC-BY-NC-4.0; map-anything-apache: Apache-2.0", products=False,
+        size=(392, 518), mean=IMAGENET_MEAN, std=IMAGENET_STD, scale="metric"),
+    ModelCard(
         name="salad", module="salad_model", package="models.aggregators.salad",
         install="a checkout of github.com/serizba/salad and --package-path, "
                 "pip install timm",
