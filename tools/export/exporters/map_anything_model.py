@@ -2,8 +2,9 @@
 """MapAnything from images alone: rays, depth along them, pose; metric by one factor per call."""
 
 import io
+import math
 from contextlib import redirect_stdout
-from typing import Any, List, Tuple
+from typing import Any, List, Optional, Tuple
 
 import torch
 from mapanything import models
@@ -116,5 +117,13 @@ def build(options: BuildOptions) -> torch.nn.Module:
     return Wrapper(model)
 
 
+def _clip(self: torch.Tensor, min: Optional[float] = None,
+          max: Optional[float] = None) -> torch.Tensor:
+    """Without bounds at infinity, which the exporter makes tensors of and fails on."""
+    bounds = {name: value for name, value in (("min", min), ("max", max))
+              if value is not None and math.isfinite(value)}
+    return self.clamp(**bounds) if bounds else self
+
+
 def patches() -> List[Patch]:
-    return [(Wrapper, "forward", _all_views_at_once)]
+    return [(Wrapper, "forward", _all_views_at_once), (torch.Tensor, "clip", _clip)]
