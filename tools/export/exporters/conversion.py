@@ -20,8 +20,8 @@ EXTERNAL_BYTES = 1_800_000_000  # a protobuf ends at 2 GB: beyond, the weights l
 
 
 @contextlib.contextmanager
-def _quiet() -> Any:
-    """The exporter's own progress goes nowhere: its errors are exceptions."""
+def quiet() -> Any:
+    """The progress of other packages goes nowhere: their errors are exceptions."""
     logging.disable(logging.WARNING)
     try:
         with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()):
@@ -35,7 +35,7 @@ def export(part: Part, name: str, patches: Iterable[Patch], opset: int) -> None:
     """Writes the part's file, and FILE.data beside it when the weights do not fit one file."""
     if opset < LOWEST_OPSET:
         raise ExportError(f"--opset {opset}: {LOWEST_OPSET} is the lowest that works", BAD_USAGE)
-    with torch.no_grad(), patched(patches), _quiet():
+    with torch.no_grad(), patched(patches), quiet():
         try:
             program = torch.onnx.export(
                 part.module, (part.example,), dynamo=True, opset_version=opset,

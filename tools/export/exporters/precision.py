@@ -8,7 +8,7 @@ import onnx
 
 from contract.errors import BAD_USAGE, ExportError
 from exporters.comparison import relative_differences, table
-from exporters.conversion import EXTERNAL_BYTES, rewrite_metadata
+from exporters.conversion import EXTERNAL_BYTES, quiet, rewrite_metadata
 from exporters.options import BuildOptions
 from exporters.parts import Part, example_input
 from exporters.runner import open_onnx
@@ -54,7 +54,8 @@ def lower(kind: str, files: Sequence[Part], options: BuildOptions) -> List[str]:
     full = open_onnx(last).run(values)
     for part in files:
         _check_size(part.path)
-        _CONVERSIONS[kind](part.path)
+        with quiet():
+            _CONVERSIONS[kind](part.path)
         rewrite_metadata(part.path, part.metadata)
     lowered = open_onnx(last).run(values)
     return [f"{kind} against float32:", *table(2, relative_differences(lowered, full))]
