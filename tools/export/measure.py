@@ -62,9 +62,12 @@ def main() -> int:
     for count in views:
         command = [sys.executable, __file__, str(arguments.file), "--here", "--views", count,
                    "--threads", str(arguments.threads), "--repeat", str(arguments.repeat)]
-        status = subprocess.run(command, check=False).returncode
-        if status != 0:
-            return status
+        done = subprocess.run(command, check=False, stdout=subprocess.PIPE, text=True)
+        print(done.stdout, end="", flush=True)
+        if done.returncode != 0:
+            return done.returncode
+        if " multiview " not in done.stdout:
+            break  # its number of views is fixed
     return 0
 
 

@@ -18,7 +18,7 @@ from typing import List, Tuple
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from contract.card import check_size, metadata  # noqa: E402
+from contract.card import check_size, check_split, metadata  # noqa: E402
 from contract.errors import BAD_INPUT, BAD_USAGE, ExportError, run  # noqa: E402
 from contract.validate import fault  # noqa: E402
 from exporters.cards import CARDS, find_card  # noqa: E402
@@ -78,13 +78,13 @@ def export_model(arguments: argparse.Namespace) -> int:
     card = find_card(arguments.model)
     height, width = parse_size(arguments.size, card.size)
     check_size(card, height, width)
+    if arguments.split:
+        check_split(card)
     if not arguments.out.resolve().parent.is_dir():
         raise ExportError(f"--out {arguments.out}: its folder does not exist", BAD_USAGE)
     options = model_options(arguments, card, height, width)
     module = exporter_module(card, arguments.package_path)
     from exporters import conversion, parts, precision, weights
-    if arguments.split:
-        parts.check_split(options)
     keys = metadata(card, height, width, weights.sha256(options.weights, options.seed))
     start = time.monotonic()
     model = module.build(options)

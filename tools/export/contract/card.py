@@ -78,6 +78,12 @@ def check_size(card: ModelCard, height: int, width: int) -> None:
                           f"{card.multiple}, for example {card.size[0]}x{card.size[1]}", BAD_USAGE)
 
 
+def check_split(card: ModelCard) -> None:
+    """Refuses a model whose encoder cannot be a file of its own."""
+    if card.unsplit:
+        raise ExportError(f"--split: not for {card.name}: {card.unsplit}", BAD_USAGE)
+
+
 def _numbers(values: Tuple[float, ...]) -> str:
     return " ".join(f"{value:g}" for value in values)
 

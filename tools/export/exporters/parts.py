@@ -13,7 +13,6 @@ from typing import Dict, List, Tuple
 import torch
 
 from contract.card import MAX_VIEWS, encoder_path, split_metadata
-from contract.errors import BAD_USAGE, ExportError
 from exporters.options import BuildOptions
 
 _EXAMPLE_VIEWS = 3  # neither 1 nor 2, which tracing would take for constants
@@ -72,13 +71,6 @@ def split(model: torch.nn.Module, module: ModuleType, options: BuildOptions, pat
                  False),
             Part(rest, path, of_rest, "features", card.outputs, features,
                  card.kind == "multiview")]
-
-
-def check_split(options: BuildOptions) -> None:
-    """Refuses a model whose encoder cannot stand apart."""
-    if options.card.unsplit:
-        raise ExportError(f"--split: not for {options.card.name}: {options.card.unsplit}",
-                          BAD_USAGE)
 
 
 def dynamic_shapes(part: Part) -> object:
