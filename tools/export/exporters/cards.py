@@ -52,7 +52,7 @@ _CARDS = (
         "huggingface_hub; pip install --no-deps uniception==0.1.7",
         weights="huggingface.co/facebook/map-anything, .../map-anything-apache",
         license="map-anything: CC-BY-NC-4.0; map-anything-apache: Apache-2.0", products=False,
-        size=(392, 518), mean=IMAGENET_MEAN, std=IMAGENET_STD, scale="metric", unsplit=_SHARE),
+        size=(392, 518), mean=IMAGENET_MEAN, std=IMAGENET_STD, scale="metric"),
     ModelCard(
         name="salad", module="salad_model", package="models.aggregators.salad",
         install="a checkout of github.com/serizba/salad and --package-path, "

@@ -41,14 +41,61 @@ def _contract(points: torch.Tensor, confidence: torch.Tensor, translation: torch
     return points[..., 2], confidence, pose, pinhole_of_points(points, confidence)
 
 
-def _share(blocks: torch.nn.Module, patches: torch.Tensor, classes: torch.Tensor,
+class Encoder(torch.nn.Module):
+    """Images (1, V, 3, H, W) to features (1, V, N + 1, C)."""
+
+    def __init__(self, model: torch.nn.Module):
+        super().__init__()
+        self.model = model
+
+    def forward(self, images: torch.Tensor) -> torch.Tensor:
+        return _encode(self.model, images)
+
+
+class Decoder(torch.nn.Module):
+    """Features (1, V, N + 1, C) to the outputs of the contract."""
+
+    def __init__(self, model: torch.nn.Module, height: int, width: int):
+        super().__init__()
+        self.model = model
+        self.size = height, width
+
+    def forward(self, features: torch.Tensor) -> Tuple[torch.Tensor, ...]:
+        return _decode(self.model, features, self.size)
+
+
+def _encode(model: torch.nn.Module, images: torch.Tensor) -> torch.Tensor:
+    """Tokens of the patches of each view, then its class token."""
+    norm = model.encoder.data_norm_type
+    found = model.encoder(ViTEncoderInput(image=images[0], data_norm_type=norm))
+    tokens = torch.cat([found.features.flatten(2), found.registers], dim=2)
+    return tokens.transpose(1, 2).unsqueeze(0)
+
+
+def _decode(model: torch.nn.Module, features: torch.Tensor,
+            size: Tuple[int, int]) -> Tuple[torch.Tensor, ...]:
+    """All views on one tensor: the authors' code takes a list of views, whose length a graph cannot
+    leave open, and adds zeros for the inputs that are not there."""
+    rows, columns = (side // model.encoder.patch_size for side in size)
+    patches = model.fusion_norm_layer(features[0, :, :-1])
+    kept, scale = _share(model.info_sharing, torch.cat([patches, features[0, :, -1:]], dim=1),
+                         model.scale_token.reshape(1, 1, -1))
+    maps = [tokens[:, :rows * columns].transpose(1, 2).unflatten(2, (rows, columns))
+            for tokens in (patches, *kept)]
+    dense, pose, metric = model.downstream_head(maps, scale.transpose(1, 2), tuple(size))
+    rays, depth = dense.value.permute(0, 2, 3, 1).split([3, 1], dim=-1)
+    translation, quaternion = pose.value.split([3, 4], dim=-1)
+    return _contract(*(found.unsqueeze(0) for found in (
+        rays * depth * metric.reshape(1, 1, 1, 1), dense.confidence.squeeze(1),
+        translation * metric, quaternion)))
+
+
+def _share(blocks: torch.nn.Module, tokens: torch.Tensor,
            scale: torch.Tensor) -> Tuple[List[torch.Tensor], torch.Tensor]:
     """Attention over all views and within each, in turns, with one more token for the scale.
 
-    Patches (V, C, h, w), class tokens (V, C, 1) and scale (1, 1, C) to the maps of three depths
-    and the scale token (1, C, 1)."""
-    views, _, height, width = patches.shape
-    tokens = torch.cat([patches.flatten(2), classes], dim=2).transpose(1, 2)
+    Tokens (V, N, C) and scale (1, 1, C) to tokens of three depths and the scale."""
+    views = tokens.shape[0]
     tokens, scale = blocks.proj_embed(tokens), blocks.proj_embed(scale)
     if blocks.distinguish_ref_and_non_ref_views:
         tokens = torch.cat([tokens[:1] + blocks.view_pos_table[0], tokens[1:]], dim=0)
@@ -61,26 +108,16 @@ def _share(blocks: torch.nn.Module, patches: torch.Tensor, classes: torch.Tensor
             tokens = block(tokens)
         if k in blocks.indices:
             kept.append(tokens)
-    maps = [blocks.norm(found)[:, :height * width].transpose(1, 2).unflatten(2, (height, width))
-            for found in (*kept, tokens)]
-    return maps, blocks.norm(scale).transpose(1, 2)
+    return [blocks.norm(found) for found in (*kept, tokens)], blocks.norm(scale)
 
 
 def _all_views_at_once(self: Wrapper, images: torch.Tensor) -> Tuple[torch.Tensor, ...]:
-    """The same on one tensor: the authors' code takes a list of views, whose length a graph cannot
-    leave open, and zeros in place of the inputs that are not there."""
-    model = self.model
-    encoded = model.encoder(ViTEncoderInput(image=images[0],
-                                            data_norm_type=model.encoder.data_norm_type))
-    patches = model.fusion_norm_layer(encoded.features.permute(0, 2, 3, 1)).permute(0, 3, 1, 2)
-    maps, scale = _share(model.info_sharing, patches, encoded.registers,
-                         model.scale_token.reshape(1, 1, -1))
-    dense, pose, metric = model.downstream_head([patches, *maps], scale, tuple(images.shape[-2:]))
-    rays, depth = dense.value.permute(0, 2, 3, 1).split([3, 1], dim=-1)
-    translation, quaternion = pose.value.split([3, 4], dim=-1)
-    confidence = dense.confidence.squeeze(1)
-    return _contract(*(found.unsqueeze(0) for found in (
-        rays * depth * metric.reshape(1, 1, 1, 1), confidence, translation * metric, quaternion)))
+    return _decode(self.model, _encode(self.model, images), images.shape[-2:])
+
+
+def split(whole: Wrapper, options: BuildOptions) -> Tuple[torch.nn.Module, torch.nn.Module]:
+    return (Encoder(whole.model).eval(),
+            Decoder(whole.model, options.height, options.width).eval())
 
 
 def _local_encoder(repository: str, name: str, **unused: Any) -> torch.nn.Module:
