@@ -4,8 +4,8 @@
 
     measure.py FILE.onnx [--views 2,16] [--threads 1] [--repeat 3]
 
-The two files of a split model are measured one by one. Prints the least CPU time of the calls after the first, and the peak memory of the process,
-Python and the runtime included."""
+Prints the least CPU time of the calls after the first, and the peak memory of the process,
+Python and the runtime included. The two files of a split model are measured one by one."""
 
 import argparse
 import resource
