@@ -56,7 +56,8 @@ std::string Outputs::read_poses(const Model& model, int32_t views) {
       t_first = t_view;
     }
     // Any gauge is allowed: even models that are trained on view 0 as the world only come near it.
-    const Eigen::Quaterniond q = (q_first.conjugate() * q_view).normalized();
+    Eigen::Quaterniond q = (q_first.conjugate() * q_view).normalized();
+    if (q.w() < 0) q.coeffs() *= -1;  // the same of the two in every recording
     const Eigen::Vector3d t = q_first.conjugate() * (t_view - t_first);
     T_0_view_[static_cast<size_t>(view)] = {
         {q.x(), q.y(), q.z(), q.w()}, {t.x(), t.y(), t.z()}, 1.0};

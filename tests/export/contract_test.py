@@ -3,10 +3,11 @@
 
 import unittest
 from dataclasses import replace
+from pathlib import Path
 
 import setting  # noqa: F401
 import numpy as np
-from contract.card import card_of, check_size, metadata
+from contract.card import card_of, check_size, encoder_path, metadata, split_metadata
 from contract.errors import BAD_USAGE, ExportError
 from contract.validate import fault
 from exporters.cards import CARDS, find_card
@@ -72,6 +73,19 @@ class Metadata(unittest.TestCase):
         with self.assertRaisesRegex(ExportError, "x.onnx.*model_license"):
             card_of({"model": "m", "mean": "0 0 0", "std": "1 1 1", "kind": "pair"}, "x.onnx")
 
+    def test_a_split_model_says_in_both_files_which_encoder_it_is(self):
+        whole = metadata(find_card("sta"), 224, 224, "0")
+        encoder, rest = split_metadata(whole, "1f")
+        self.assertEqual(encoder["unisim.kind"], "encoder")
+        self.assertEqual((rest["unisim.kind"], rest["unisim.input"]), ("pair", "features"))
+        self.assertEqual((encoder["unisim.encoder"], rest["unisim.encoder"]), ("1f", "1f"))
+        for key in EVERY_MODEL - {"kind"}:
+            self.assertEqual(encoder[f"unisim.{key}"], rest[f"unisim.{key}"], key)
+        self.assertFalse({f"unisim.{key}" for key in GEOMETRY} & set(encoder))
+
+    def test_an_encoder_lies_beside_its_model(self):
+        self.assertEqual(encoder_path(Path("a/sta.fp16.onnx")), Path("a/sta.fp16.encoder.onnx"))
+
     def test_a_card_with_a_word_the_runtime_does_not_know_cannot_be_made(self):
         with self.assertRaises(ValueError):
             replace(find_card("da3-small"), confidence="percent")
@@ -90,8 +104,8 @@ class Predictions(unittest.TestCase):
         self.good["pose"][0, 1, 0, 3] = np.nan
         self.assertIn("pose", fault(self.good))
 
-    def test_depth_that_is_nowhere_positive_is_refused(self):
-        self.good["depth"][:] = -1
+    def test_one_depth_that_is_not_positive_is_refused(self):
+        self.good["depth"][0, 0, 1, 2] = 0
         self.assertIn("depth", fault(self.good))
 
     def test_a_focal_length_of_zero_in_one_view_is_refused(self):

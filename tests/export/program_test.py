@@ -37,6 +37,16 @@ class Programs(unittest.TestCase):
     def test_no_weights_says_where_they_are(self):
         self.refused(2, "DA3-SMALL", "unisim_export.py", "da3-small", "--out", "x.onnx")
 
+    def test_a_model_that_cannot_be_split_says_why(self):
+        self.refused(2, "attention across the views", "unisim_export.py", "da3-small", "--split",
+                     "--out", "x.onnx", "--random-weights")
+
+    def test_fp16_and_int8_at_once_is_bad_usage(self):
+        result = run("unisim_export.py", "da3-small", "--fp16", "--int8", "--out", "x.onnx",
+                     "--random-weights")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("not allowed with", result.stderr)
+
     def test_a_package_folder_that_is_not_there_is_bad_usage(self):
         self.refused(2, "no such folder", "unisim_export.py", "da3-small", "--out", "x.onnx",
                      "--random-weights", "--package-path", "/nowhere")

@@ -1,14 +1,20 @@
 # SPDX-License-Identifier: MIT
-"""Puts tools/export on the path; without numpy the test says "skipped" and ends."""
+"""Puts tools/export on the path; where a package is missing the test says "skipped" and ends."""
 
+import importlib.util
 import sys
 from pathlib import Path
 
 TOOLS = Path(__file__).resolve().parents[2] / "tools" / "export"
 sys.path.insert(0, str(TOOLS))
 
-try:
-    import numpy  # noqa: F401
-except ImportError:
-    print("skipped: Python has no numpy")
-    sys.exit(0)
+
+def require(*packages: str) -> None:
+    """Ends the program where one of the packages is not installed."""
+    for package in packages:
+        if importlib.util.find_spec(package) is None:
+            print(f"skipped: Python has no {package}")
+            sys.exit(0)
+
+
+require("numpy")

@@ -5,7 +5,7 @@
     measure.py FILE.onnx [--views 2,16] [--threads 1] [--repeat 3]
 
 Prints the least CPU time of the calls after the first, and the peak memory of the process,
-Python and the runtime included."""
+Python and the runtime included. The two files of a split model are measured one by one."""
 
 import argparse
 import resource
@@ -28,16 +28,19 @@ def measure_here(path: Path, views: int, threads: int, repeat: int) -> int:
     runner = OnnxRunner(path, threads)
     load_s = time.process_time() - start
     keys = runner.metadata
-    shape = (3, int(keys["height"]), int(keys["width"]))
-    lead = (1,) if keys["kind"] == "descriptor" else (1, views)
-    values = np.random.default_rng(0).random(lead + shape, dtype=np.float32)
+    shape = list(runner.input_shape)
+    if keys["kind"] in ("multiview", "pair"):
+        shape[1] = views
+    else:
+        views = 1
+    values = np.random.default_rng(0).random(shape, dtype=np.float32)
     times = []
     for _ in range(1 + repeat):
         start = time.process_time()
         runner.run(values)
         times.append(time.process_time() - start)
     peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    print(f"{keys['model']} {keys['height']}x{keys['width']} views {views:2d}: "
+    print(f"{keys['model']} {keys['kind']} {keys['height']}x{keys['width']} views {views:2d}: "
           f"load {load_s:.2f} s, call {min(times[1:] or times):.2f} s CPU, peak {peak_mb:.0f} MB",
           flush=True)
     return 0
@@ -59,9 +62,12 @@ def main() -> int:
     for count in views:
         command = [sys.executable, __file__, str(arguments.file), "--here", "--views", count,
                    "--threads", str(arguments.threads), "--repeat", str(arguments.repeat)]
-        status = subprocess.run(command, check=False).returncode
-        if status != 0:
-            return status
+        done = subprocess.run(command, check=False, stdout=subprocess.PIPE, text=True)
+        print(done.stdout, end="", flush=True)
+        if done.returncode != 0:
+            return done.returncode
+        if " multiview " not in done.stdout:
+            break  # its number of views is fixed
     return 0
 
 

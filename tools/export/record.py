@@ -22,9 +22,10 @@ import numpy as np  # noqa: E402
 from contract.card import ModelCard, card_of, check_size  # noqa: E402
 from contract.errors import BAD_USAGE, ExportError, run  # noqa: E402
 from contract.poses import compose, inverse  # noqa: E402
+from contract.validate import MIN_POSE_CONFIDENCE  # noqa: E402
 from exporters.cards import CARDS, find_card  # noqa: E402
 from exporters.options import add_model_arguments, exporter_module, model_options  # noqa: E402
-from exporters.runner import OnnxRunner, TorchRunner  # noqa: E402
+from exporters.runner import TorchRunner, open_onnx  # noqa: E402
 from recording.frames import Frame, list_frames, load  # noqa: E402
 from recording.predictor import Predictor, Rejected  # noqa: E402
 from recording.schedule import loop_window, windows  # noqa: E402
@@ -43,6 +44,8 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--to", type=int, metavar="B", help="frames [A, B)")
     parser.add_argument("--window", type=int, default=16, metavar="W")
     parser.add_argument("--overlap", type=int, default=2, metavar="P")
+    parser.add_argument("--min-pose-confidence", type=float, default=MIN_POSE_CONFIDENCE,
+                        metavar="P", help="where a model gives one: less is rejected (%(default)s)")
     parser.add_argument("--no-windows", action="store_true", help="pairs only")
     parser.add_argument("--loop", action="append", default=[], metavar="I,J",
                         help="also a window around keyframes I and J; may be repeated")
@@ -57,7 +60,7 @@ def parse_arguments() -> argparse.Namespace:
 def open_model(name: str, arguments: argparse.Namespace) -> Tuple[object, ModelCard, Tuple]:
     """Runner, card and input size (H, W) of an ONNX file or of a torch model."""
     if name.endswith(".onnx"):
-        runner = OnnxRunner(Path(name), arguments.threads, arguments.provider)
+        runner = open_onnx(Path(name), arguments.threads, arguments.provider)
         card = card_of(runner.metadata, name)
         size = card.size
     else:
@@ -156,7 +159,8 @@ def main() -> int:
                               f"first frame is {image_size[1]}x{image_size[0]}")
         return image
 
-    models = [Predictor(runner, card, size, image_size, load_keyframe)
+    models = [Predictor(runner, card, size, image_size, load_keyframe,
+                        arguments.min_pose_confidence)
               for runner, card, size in opened]
     start = time.monotonic()
     names = "+".join(card.name for _, card, _ in opened)

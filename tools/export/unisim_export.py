@@ -3,6 +3,7 @@
 """Exports feed-forward models to ONNX files that libunisim runs, and checks them against torch.
 
     unisim_export.py MODEL --out FILE.onnx --size HxW (--weights PATH | --random-weights)
+    unisim_export.py MODEL --split ... also FILE.encoder.onnx, which is run once per image
     unisim_export.py check MODEL FILE.onnx (--weights PATH | --random-weights) [--golden DIR]
     unisim_export.py list
 
@@ -17,7 +18,7 @@ from typing import List, Tuple
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from contract.card import check_size, metadata  # noqa: E402
+from contract.card import check_size, check_split, metadata  # noqa: E402
 from contract.errors import BAD_INPUT, BAD_USAGE, ExportError, run  # noqa: E402
 from contract.validate import fault  # noqa: E402
 from exporters.cards import CARDS, find_card  # noqa: E402
@@ -47,6 +48,8 @@ def parse_arguments(arguments: List[str]) -> argparse.Namespace:
         numbers.add_argument("--fp16", action="store_true")
         numbers.add_argument("--int8", action="store_true")
         parser.add_argument("--size", metavar="HxW", help="default: the model's own")
+        parser.add_argument("--split", action="store_true",
+                            help="the encoder in a file of its own, FILE.encoder.onnx")
     add_model_arguments(parser)
     parsed = parser.parse_args(arguments[1:] if check else arguments)
     parsed.command = "check" if check else "export"
@@ -75,22 +78,26 @@ def export_model(arguments: argparse.Namespace) -> int:
     card = find_card(arguments.model)
     height, width = parse_size(arguments.size, card.size)
     check_size(card, height, width)
+    if arguments.split:
+        check_split(card)
     if not arguments.out.resolve().parent.is_dir():
         raise ExportError(f"--out {arguments.out}: its folder does not exist", BAD_USAGE)
     options = model_options(arguments, card, height, width)
     module = exporter_module(card, arguments.package_path)
-    from exporters import conversion, precision, weights
+    from exporters import conversion, parts, precision, weights
     keys = metadata(card, height, width, weights.sha256(options.weights, options.seed))
     start = time.monotonic()
     model = module.build(options)
-    conversion.export(model, options, module.patches(), arguments.opset, arguments.out, keys)
-    if arguments.fp16:
-        precision.to_fp16(arguments.out, keys)
-    if arguments.int8:
-        precision.to_int8(arguments.out, keys)
+    files = (parts.split(model, module, options, arguments.out, keys) if arguments.split
+             else parts.whole(model, options, arguments.out, keys))
+    for part in files:
+        conversion.export(part, card.name, module.patches(), arguments.opset)
+    if arguments.fp16 or arguments.int8:
+        kind = "fp16" if arguments.fp16 else "int8"
+        print("\n".join(precision.lower(kind, files, options)))
     parameters = sum(p.numel() for p in model.parameters()) / 1e6
-    print(f"{arguments.out}: {card.name} {height}x{width}, {parameters:.1f} M parameters, "
-          f"{time.monotonic() - start:.0f} s")
+    print(f"{' '.join(str(part.path) for part in files)}: {card.name} {height}x{width}, "
+          f"{parameters:.1f} M parameters, {time.monotonic() - start:.0f} s")
     print(f"licence: {card.license}; products: {'yes' if card.products else 'no'}")
     if options.weights is None:
         print("random weights: shapes and costs are real, what it predicts means nothing")
@@ -111,9 +118,9 @@ def check_model(arguments: argparse.Namespace) -> int:
     card = find_card(arguments.model)
     all_views = parse_views(arguments.views, card.kind)
     module = exporter_module(card, arguments.package_path)
-    from exporters import comparison, conversion
-    from exporters.runner import OnnxRunner, TorchRunner
-    onnx = OnnxRunner(arguments.file, arguments.threads)
+    from exporters import comparison, parts
+    from exporters.runner import TorchRunner, open_onnx
+    onnx = open_onnx(arguments.file, arguments.threads)
     if onnx.metadata.get("model") != card.name:
         raise ExportError(f"{arguments.file}: holds {onnx.metadata.get('model')}, not {card.name}")
     height, width = int(onnx.metadata["height"]), int(onnx.metadata["width"])
@@ -121,11 +128,11 @@ def check_model(arguments: argparse.Namespace) -> int:
     torch = TorchRunner(module.build(options), card.outputs, threads=arguments.threads)
     worst = 0.0
     for views in all_views:
-        values = conversion.example_input(options, views).numpy()
+        values = parts.example_input(options, views).numpy()
         expected = torch.run(values)
-        if options.weights and card.kind != "descriptor" and fault(expected):
-            raise ExportError(f"{card.name}: torch itself gives an unusable prediction: "
-                              f"{fault(expected)}")
+        wrong = options.weights and card.kind != "descriptor" and fault(expected, 0.0)
+        if wrong:
+            raise ExportError(f"{card.name}: torch itself gives an unusable prediction: {wrong}")
         differences = comparison.relative_differences(onnx.run(values), expected)
         print("\n".join(comparison.table(views, differences)))
         worst = max(worst, *differences.values())

@@ -124,7 +124,7 @@ def _pose_bytes(matrix, what):
 
 
 def _quaternion(rotation):
-    """Unit quaternion x y z w through its largest component."""
+    """Unit quaternion x y z w through its largest component; of the two the one with w >= 0."""
     r = rotation
     trace = np.trace(r)
     squares = np.array([1 + 2 * r[0, 0] - trace, 1 + 2 * r[1, 1] - trace,
@@ -136,7 +136,7 @@ def _quaternion(rotation):
         [r[0, 2] + r[2, 0], r[1, 2] + r[2, 1], squares[2], r[1, 0] - r[0, 1]],
         [r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], squares[3]]])
     quaternion = products[k]
-    return quaternion / np.linalg.norm(quaternion)
+    return np.copysign(1.0, quaternion[3]) * quaternion / np.linalg.norm(quaternion)
 
 
 def _depth_bytes(depth, confidence, what):

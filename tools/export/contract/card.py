@@ -2,6 +2,7 @@
 """What is said of a model in the metadata of its ONNX file (keys `unisim.*`)."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Dict, Mapping, Tuple
 
 from contract.errors import BAD_INPUT, BAD_USAGE, ExportError
@@ -13,8 +14,10 @@ MAX_VIEWS = 64
 IMAGENET_MEAN = (0.485, 0.456, 0.406)
 IMAGENET_STD = (0.229, 0.224, 0.225)
 
+_OF_GEOMETRY = ("min_views", "max_views", "confidence", "scale", "shared_scale", "reference_view",
+                "pixel_center")
 _CHOICES = {
-    "kind": ("multiview", "pair", "descriptor"),
+    "kind": ("multiview", "pair", "descriptor", "encoder"),
     "resize": ("fit", "crop", "pad", "stretch"),
     "confidence": ("expp1", "sigmoid", "raw"),
     "scale": ("relative", "metric"),
@@ -43,10 +46,12 @@ class ModelCard:
     mean: Tuple[float, float, float] = (0.0, 0.0, 0.0)
     std: Tuple[float, float, float] = (1.0, 1.0, 1.0)
     resize: str = "fit"
+    pad_value: float = 0.0
     confidence: str = "expp1"
     scale: str = "relative"
     reference_view: str = "0"
     pixel_center: str = "0.5"
+    unsplit: str = ""  # why its encoder cannot be a file of its own; empty: it can
 
     def __post_init__(self) -> None:
         for field, known in _CHOICES.items():
@@ -73,6 +78,12 @@ def check_size(card: ModelCard, height: int, width: int) -> None:
                           f"{card.multiple}, for example {card.size[0]}x{card.size[1]}", BAD_USAGE)
 
 
+def check_split(card: ModelCard) -> None:
+    """Refuses a model whose encoder cannot be a file of its own."""
+    if card.unsplit:
+        raise ExportError(f"--split: not for {card.name}: {card.unsplit}", BAD_USAGE)
+
+
 def _numbers(values: Tuple[float, ...]) -> str:
     return " ".join(f"{value:g}" for value in values)
 
@@ -83,7 +94,7 @@ def metadata(card: ModelCard, height: int, width: int, weights_sha256: str) -> D
         "contract": CONTRACT_VERSION, "kind": card.kind, "model": card.name,
         "model_license": card.license, "height": str(height), "width": str(width),
         "multiple": str(card.multiple), "mean": _numbers(card.mean), "std": _numbers(card.std),
-        "resize": card.resize, "pad_value": "0", "exporter": EXPORTER,
+        "resize": card.resize, "pad_value": f"{card.pad_value:g}", "exporter": EXPORTER,
         "weights_sha256": weights_sha256,
     }
     if card.kind != "descriptor":
@@ -94,6 +105,21 @@ def metadata(card: ModelCard, height: int, width: int, weights_sha256: str) -> D
             "pixel_center": card.pixel_center,
         })
     return {f"unisim.{key}": value for key, value in values.items()}
+
+
+def encoder_path(path: Path) -> Path:
+    """FILE.encoder.onnx of FILE.onnx."""
+    return path.with_name(f"{path.stem}.encoder{path.suffix}")
+
+
+def split_metadata(keys: Mapping[str, str], identity: str) -> Tuple[Dict[str, str], Dict[str, str]]:
+    """Keys of an encoder's file and of the file that takes its features, from those of the whole.
+
+    `identity` stands in both, so that features of other weights or another size are refused."""
+    encoder = {key: value for key, value in keys.items()
+               if key[len("unisim."):] not in _OF_GEOMETRY}
+    encoder.update({"unisim.kind": "encoder", "unisim.encoder": identity})
+    return encoder, {**keys, "unisim.input": "features", "unisim.encoder": identity}
 
 
 def card_of(keys: Mapping[str, str], path: str) -> ModelCard:
@@ -108,7 +134,8 @@ def card_of(keys: Mapping[str, str], path: str) -> ModelCard:
             name=keys["model"], module="", package="", install="", weights="",
             license=keys["model_license"], products=False, kind=keys["kind"],
             multiple=int(keys["multiple"]), size=(int(keys["height"]), int(keys["width"])),
-            resize=keys["resize"], **triples, **optional)
+            resize=keys["resize"], pad_value=float(keys.get("pad_value", "0")), **triples,
+            **optional)
     except (KeyError, ValueError) as error:
         raise ExportError(f"{path}: metadata unisim.*: {error}; export the model anew",
                           BAD_INPUT) from error

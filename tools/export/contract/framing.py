@@ -69,7 +69,8 @@ def preprocess(image: np.ndarray, framing: Framing, card: ModelCard) -> np.ndarr
     rows = resampling_matrix(framing.image_height, framing.height)
     columns = resampling_matrix(framing.image_width, framing.width)
     planes = rows @ image.astype(np.float32).transpose(2, 0, 1) @ columns.T
-    padded = np.zeros((3, framing.input_height, framing.input_width), np.float32)
+    padded = np.full((3, framing.input_height, framing.input_width), 255 * card.pad_value,
+                     np.float32)
     y = _overlap(framing.offset_y, framing.height, framing.input_height)
     x = _overlap(framing.offset_x, framing.width, framing.input_width)
     padded[:, y, x] = planes[:, y.start - framing.offset_y:y.stop - framing.offset_y,
@@ -79,9 +80,9 @@ def preprocess(image: np.ndarray, framing: Framing, card: ModelCard) -> np.ndarr
     return (padded / 255 - mean) / std
 
 
-def to_image_grid(values: np.ndarray, framing: Framing) -> np.ndarray:
-    """An input map (H, W) as one of the whole image in the resized size; 0 where nothing is."""
-    grid = np.zeros((framing.height, framing.width), np.float32)
+def to_image_grid(values: np.ndarray, framing: Framing, outside: float = 0.0) -> np.ndarray:
+    """An input map (H, W) as one of the whole image in the resized size; `outside` of the input."""
+    grid = np.full((framing.height, framing.width), outside, np.float32)
     y = _overlap(framing.offset_y, framing.height, framing.input_height)
     x = _overlap(framing.offset_x, framing.width, framing.input_width)
     grid[y.start - framing.offset_y:y.stop - framing.offset_y,
@@ -90,7 +91,7 @@ def to_image_grid(values: np.ndarray, framing: Framing) -> np.ndarray:
 
 
 def image_focal(intrinsics: np.ndarray, framing: Framing) -> float:
-    """One focal length in pixels of the image, of (V, 3, 3) matrices in pixels of the input."""
-    fx = intrinsics[..., 0, 0] / framing.scale_x
-    fy = intrinsics[..., 1, 1] / framing.scale_y
-    return float(np.median(np.sqrt(fx * fy)))
+    """Geometric mean, in pixels of the image, of (V, 3, 3) matrices in pixels of the input."""
+    fx = intrinsics[..., 0, 0].astype(np.float64) / framing.scale_x
+    fy = intrinsics[..., 1, 1].astype(np.float64) / framing.scale_y
+    return float(np.exp(np.mean(0.5 * np.log(fx * fy))))

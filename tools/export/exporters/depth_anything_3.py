@@ -1,18 +1,21 @@
 # SPDX-License-Identifier: MIT
 """Depth Anything 3, small and base: depth and confidence from its dual head, pose from tokens."""
 
+import os
 from typing import List, Tuple
 
 import torch
-from depth_anything_3.cfg import create_object, load_config
-from depth_anything_3.model.dinov2 import vision_transformer
-from depth_anything_3.model.dinov2.layers import rope
-from depth_anything_3.registry import MODEL_REGISTRY
 
-from exporters import rotary, weights
-from exporters.geometry import invert_rigid
-from exporters.options import BuildOptions
-from exporters.patching import Patch
+os.environ.setdefault("DA3_LOG_LEVEL", "WARN")  # else the package prints between the results
+from depth_anything_3.cfg import create_object, load_config  # noqa: E402
+from depth_anything_3.model.dinov2 import vision_transformer  # noqa: E402
+from depth_anything_3.model.dinov2.layers import rope  # noqa: E402
+from depth_anything_3.registry import MODEL_REGISTRY  # noqa: E402
+
+from exporters import rotary, weights  # noqa: E402
+from exporters.geometry import invert_rigid  # noqa: E402
+from exporters.options import BuildOptions  # noqa: E402
+from exporters.patching import Patch  # noqa: E402
 
 _KEPT_BLOCKS = 6  # alternating attention starts at block 4
 

@@ -2,12 +2,16 @@
 """Smaller numbers in an exported file: fp16 throughout, or int8 weights of matrix products."""
 
 from pathlib import Path
-from typing import Dict
+from typing import List, Sequence
 
 import onnx
 
 from contract.errors import BAD_USAGE, ExportError
-from exporters.conversion import EXTERNAL_BYTES, rewrite_metadata
+from exporters.comparison import relative_differences, table
+from exporters.conversion import EXTERNAL_BYTES, quiet, rewrite_metadata
+from exporters.options import BuildOptions
+from exporters.parts import Part, example_input
+from exporters.runner import open_onnx
 
 
 def _load_plain(path: Path) -> onnx.ModelProto:
@@ -26,19 +30,32 @@ def _check_size(path: Path) -> None:
                           "take the execution provider's own fp16 for this one", BAD_USAGE)
 
 
-def to_fp16(path: Path, metadata: Dict[str, str]) -> None:
-    """Rewrites the file in half precision; inputs and outputs stay float32."""
+def _to_fp16(path: Path) -> None:
+    """Half precision throughout; inputs and outputs stay float32."""
     from onnxruntime.transformers.float16 import convert_float_to_float16
-    _check_size(path)
-    model = convert_float_to_float16(_load_plain(path), keep_io_types=True)
-    onnx.save(model, str(path))
-    rewrite_metadata(path, metadata)
+    onnx.save(convert_float_to_float16(_load_plain(path), keep_io_types=True), str(path))
 
 
-def to_int8(path: Path, metadata: Dict[str, str]) -> None:
-    """Rewrites the file with 8-bit weights of MatMul and Gemm; activations are scaled per call."""
+def _to_int8(path: Path) -> None:
+    """8-bit weights of MatMul and Gemm; activations are scaled per call."""
     from onnxruntime.quantization import QuantType, quantize_dynamic
-    _check_size(path)
     quantize_dynamic(_load_plain(path), str(path), weight_type=QuantType.QInt8,
                      op_types_to_quantize=["MatMul", "Gemm"])
-    rewrite_metadata(path, metadata)
+
+
+_CONVERSIONS = {"fp16": _to_fp16, "int8": _to_int8}
+
+
+def lower(kind: str, files: Sequence[Part], options: BuildOptions) -> List[str]:
+    """Rewrites the files of one model, metadata included. Lines that say what it did to the
+    outputs."""
+    values = example_input(options, 2).numpy()
+    last = files[-1].path
+    full = open_onnx(last).run(values)
+    for part in files:
+        _check_size(part.path)
+        with quiet():
+            _CONVERSIONS[kind](part.path)
+        rewrite_metadata(part.path, part.metadata)
+    lowered = open_onnx(last).run(values)
+    return [f"{kind} against float32:", *table(2, relative_differences(lowered, full))]

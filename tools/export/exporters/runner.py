@@ -6,6 +6,7 @@ from typing import Dict, Optional
 
 import numpy as np
 
+from contract.card import encoder_path
 from contract.errors import ExportError
 
 Outputs = Dict[str, np.ndarray]
@@ -53,7 +54,40 @@ class OnnxRunner:
             raise ExportError(f"{path}: no unisim.contract in its metadata; export the model with "
                               "unisim_export.py")
         self._input = self._session.get_inputs()[0].name
+        self.input_shape = self._session.get_inputs()[0].shape
         self._names = [output.name for output in self._session.get_outputs()]
 
     def run(self, values: np.ndarray) -> Outputs:
         return dict(zip(self._names, self._session.run(None, {self._input: values})))
+
+
+class SplitRunner:
+    """A file that takes features, behind its encoder: together they take images."""
+
+    def __init__(self, encoder: OnnxRunner, rest: OnnxRunner):
+        self.metadata = rest.metadata
+        self._encoder = encoder
+        self._rest = rest
+
+    def run(self, values: np.ndarray) -> Outputs:
+        features = [self._encoder.run(values[:, k:k + 1])["features"]
+                    for k in range(values.shape[1])]
+        return self._rest.run(np.concatenate(features, axis=1))
+
+
+def open_onnx(path: Path, threads: int = 0, provider: Optional[str] = None):
+    """The runner of a file, with the encoder that lies beside it where it needs one."""
+    runner = OnnxRunner(path, threads, provider)
+    if runner.metadata.get("kind") == "encoder":
+        raise ExportError(f"{path}: is an encoder, which predicts nothing by itself; give the file "
+                          "it belongs to")
+    if runner.metadata.get("input", "images") != "features":
+        return runner
+    beside = encoder_path(path)
+    if not beside.is_file():
+        raise ExportError(f"{path}: takes the features of an encoder; put {beside.name} beside it")
+    encoder = OnnxRunner(beside, threads, provider)
+    if encoder.metadata.get("encoder") != runner.metadata.get("encoder"):
+        raise ExportError(f"{beside}: is not the encoder of {path.name} (other weights or another "
+                          "size); export the two together")
+    return SplitRunner(encoder, runner)

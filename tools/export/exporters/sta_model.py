@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """STA, the two-view model of ViSTA-SLAM: points of each view in its own camera, relative pose."""
 
-from typing import Any, List, Tuple
+from typing import Any, List, Sequence, Tuple
 
 import torch
 
@@ -17,6 +17,7 @@ from vista_slam.sta_model.blocks import sta_blocks  # noqa: E402
 from vista_slam.sta_model.heads import pose_head  # noqa: E402
 from vista_slam.sta_model.sta_model import SymmetricTwoViewAssociation  # noqa: E402
 
+_PATCH = 16
 _REDUCED_ENCODER = 3
 
 
@@ -28,22 +29,54 @@ class Wrapper(torch.nn.Module):
         self.model = model
 
     def forward(self, images: torch.Tensor) -> Tuple[torch.Tensor, ...]:
-        model = self.model
-        height, width = images.shape[-2:]
-        features, positions = zip(*(model._encode_image(images[:, k], None, normalize=False)
+        features, positions = zip(*(self.model._encode_image(images[:, k], None, normalize=False)
                                     for k in range(2)))
-        decoded = model._decode_stereo(*features, *positions)
-        heads = [model.downstream_head_pts(
-            [feature] + [tokens[:, 1:] for tokens in layers], (height, width))
-            for feature, layers in zip(features, decoded)]
-        turned = [model.head_pose_s(layers[-1][:, 0]) for layers in decoded]
-        points = torch.stack([head["pts3d"] for head in heads], dim=1)
-        confidence = torch.stack([head["conf"] for head in heads], dim=1)
-        T_0_1 = turned[1]["pose"][:, :3]
-        T_0_0 = torch.eye(4, dtype=T_0_1.dtype, device=T_0_1.device)[:3].expand_as(T_0_1)
-        pose = torch.stack((T_0_0, T_0_1), dim=1)
-        sure = torch.stack([found["conf"] for found in turned], dim=1)
-        return (points[..., 2], confidence, pose, pinhole_of_points(points, confidence), sure)
+        return _decode(self.model, features, positions, images.shape[-2:])
+
+
+class Encoder(torch.nn.Module):
+    """One image (1, 1, 3, H, W) to features (1, 1, N, C)."""
+
+    def __init__(self, model: torch.nn.Module):
+        super().__init__()
+        self.model = model
+
+    def forward(self, images: torch.Tensor) -> torch.Tensor:
+        return self.model._encode_image(images[:, 0], None, normalize=False)[0].unsqueeze(1)
+
+
+class Decoder(torch.nn.Module):
+    """Features (1, 2, N, C) of two images to the outputs of the contract."""
+
+    def __init__(self, model: torch.nn.Module, height: int, width: int):
+        super().__init__()
+        self.model = model
+        self.size = height, width
+
+    def forward(self, features: torch.Tensor) -> Tuple[torch.Tensor, ...]:
+        rows, columns = (side // _PATCH for side in self.size)
+        positions = rotary.grid_positions(self, 1, rows, columns, features.device)
+        return _decode(self.model, features.unbind(dim=1), (positions, positions), self.size)
+
+
+def _decode(model: torch.nn.Module, features: Sequence[torch.Tensor],
+            positions: Sequence[torch.Tensor], size: Tuple[int, int]) -> Tuple[torch.Tensor, ...]:
+    decoded = model._decode_stereo(*features, *positions)
+    heads = [model.downstream_head_pts([feature] + [tokens[:, 1:] for tokens in layers], size)
+             for feature, layers in zip(features, decoded)]
+    turned = [model.head_pose_s(layers[-1][:, 0]) for layers in decoded]
+    points = torch.stack([head["pts3d"] for head in heads], dim=1)
+    confidence = torch.stack([head["conf"] for head in heads], dim=1)
+    T_0_1 = turned[1]["pose"][:, :3]
+    T_0_0 = torch.eye(4, dtype=T_0_1.dtype, device=T_0_1.device)[:3].expand_as(T_0_1)
+    pose = torch.stack((T_0_0, T_0_1), dim=1)
+    sure = torch.stack([found["conf"] for found in turned], dim=1)
+    return (points[..., 2], confidence, pose, pinhole_of_points(points, confidence), sure)
+
+
+def split(whole: Wrapper, options: BuildOptions) -> Tuple[torch.nn.Module, torch.nn.Module]:
+    return (Encoder(whole.model).eval(),
+            Decoder(whole.model, options.height, options.width).eval())
 
 
 def build(options: BuildOptions) -> torch.nn.Module:
@@ -54,12 +87,12 @@ def build(options: BuildOptions) -> torch.nn.Module:
     if options.reduced:
         model.enc_blocks = model.enc_blocks[:_REDUCED_ENCODER]
     if weights.fill(model, options.weights, options.seed):
-        with torch.no_grad():
+        with torch.no_grad():  # small turns, points in a narrow cone that is well in front
             head = model.head_pose_s
             head.fc_rot.weight.mul_(0.2)
             head.fc_rot.bias.copy_(torch.eye(3).flatten())
             points = model.downstream_head_pts.dpt.head[-1]  # x, y, z, confidence
-            points.weight.mul_(0.1)
+            points.weight.mul_(0.02)
             points.bias.copy_(torch.tensor([0.0, 0.0, 1.0, 0.0]))
     return Wrapper(model)
 

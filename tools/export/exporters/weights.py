@@ -44,19 +44,21 @@ def load(model: torch.nn.Module, path: Path, ignored: Sequence[str] = ()) -> Non
     for outer in ("model", "state_dict"):
         if isinstance(state.get(outer), dict):
             state = state[outer]
-    names = set(model.state_dict())
+    own = model.state_dict()
+    names = set(own)
     for prefix in ("module.", "model."):
         stripped = {key[len(prefix):] if key.startswith(prefix) else key: value
                     for key, value in state.items()}
         if len(names & set(stripped)) > len(names & set(state)):
             state = stripped
-    missing = sorted(names - set(state))
+    held = {own[name].data_ptr() for name in names & set(state)}  # a layer may have two names
+    missing = sorted(name for name in names - set(state) if own[name].data_ptr() not in held)
     foreign = sorted(key for key in set(state) - names if not key.startswith(tuple(ignored)))
     if missing or foreign:
         what = f"lacks {missing[0]}" if missing else f"has {foreign[0]}, which the model has not"
         raise ExportError(f"{path}: {what} ({len(missing)} missing, {len(foreign)} foreign); "
                           "give the weights of this model")
-    model.load_state_dict({key: state[key] for key in names})
+    model.load_state_dict({key: state[key] for key in names & set(state)}, strict=False)
 
 
 def randomise(model: torch.nn.Module, seed: int) -> None:

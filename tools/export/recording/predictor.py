@@ -9,7 +9,8 @@ import numpy as np
 from contract.card import ModelCard
 from contract.framing import Framing, image_focal, make_framing, preprocess, to_image_grid
 from contract.poses import reanchor
-from contract.validate import fault
+from contract.quantile import quantiles
+from contract.validate import MIN_POSE_CONFIDENCE, fault
 
 
 class Rejected(Exception):
@@ -19,7 +20,8 @@ class Rejected(Exception):
 @dataclass(frozen=True)
 class Prediction:
     """Of V views: poses T_0_i (V, 3, 4), depth and confidence maps of the whole image, and one
-    focal length in pixels of the image. Depth is 0 where the model sees nothing."""
+    focal length in pixels of the image. Depth is 0 where the model sees nothing, confidence is
+    its quantile in the view."""
 
     poses: np.ndarray
     depths: List[np.ndarray]
@@ -31,11 +33,13 @@ class Predictor:
     """Keeps the inputs of the keyframes, so that an image is decoded and resized once."""
 
     def __init__(self, runner, card: ModelCard, input_size: Tuple[int, int],
-                 image_size: Tuple[int, int], load: Callable[[int], np.ndarray]):
+                 image_size: Tuple[int, int], load: Callable[[int], np.ndarray],
+                 min_pose_confidence: float = MIN_POSE_CONFIDENCE):
         self._runner = runner
         self._card = card
         self.framing: Framing = make_framing(card, *input_size, *image_size)
         self._load = load
+        self._min_pose_confidence = min_pose_confidence
         self._inputs = {}
 
     def forget_before(self, keyframe: int) -> None:
@@ -48,11 +52,11 @@ class Predictor:
 
     def predict(self, keyframes: Sequence[int]) -> Prediction:
         outputs = self._runner.run(np.stack([self._input(k) for k in keyframes])[None])
-        wrong = fault(outputs)
+        wrong = fault(outputs, self._min_pose_confidence)
         if wrong:
             raise Rejected(f"{self._card.name}: {wrong}")
-        depths = [np.maximum(to_image_grid(depth, self.framing), 0) for depth in
-                  outputs["depth"][0]]
-        confidences = [to_image_grid(value, self.framing) for value in outputs["confidence"][0]]
+        depths = [to_image_grid(depth, self.framing) for depth in outputs["depth"][0]]
+        confidences = [quantiles(to_image_grid(value, self.framing, value.min()))
+                       for value in outputs["confidence"][0]]
         return Prediction(reanchor(outputs["pose"][0]), depths, confidences,
                           image_focal(outputs["intrinsics"][0], self.framing))
