@@ -280,7 +280,7 @@ Status BlockCholesky::factorize(double lambda, Span<BlockVector> x) {
   task.blocks = blocks_.data();
   task.H_diagonal = H_diagonal_.data();
   task.x = x.data();
-  bad_column_ = UNISIM_DISPATCH(kSupernodal).factorize(task);
+  bad_column_ = UNISIM_DISPATCH(factorize_supernodes(task));
   if (bad_column_ >= 0) {
     mark_all_stale();
     return Status::kNumerical;
@@ -293,18 +293,17 @@ Status BlockCholesky::factorize(double lambda, Span<BlockVector> x) {
 }
 
 void BlockCholesky::backward(Span<BlockVector> x) const {
-  UNISIM_DISPATCH(kSupernodal).backward(supernodes(), blocks_.data(), 0, supernodes_, x.data());
+  UNISIM_DISPATCH(backward_supernodes(supernodes(), blocks_.data(), 0, supernodes_, x.data()));
 }
 
 void BlockCholesky::backward(Span<BlockVector> x, double least) {
-  const SupernodalKernels& kernels = UNISIM_DISPATCH(kSupernodal);
   const Supernodes S = supernodes();
   for (int32_t s = supernodes_ - 1; s >= 0; --s) {
     bool reached = fresh_[s] != 0;
     for (int32_t r = row_start_[s]; !reached && r < row_start_[s + 1]; ++r) {
       reached = moves_[rows_[r]] != 0;
     }
-    if (reached) kernels.backward(S, blocks_.data(), s, s + 1, x.data());
+    if (reached) UNISIM_DISPATCH(backward_supernodes(S, blocks_.data(), s, s + 1, x.data()));
     for (int32_t j = first_column_[s]; j < first_column_[s + 1]; ++j) {
       if (!reached) x[j] = BlockVector{};
       double largest = 0.0;
@@ -315,7 +314,7 @@ void BlockCholesky::backward(Span<BlockVector> x, double least) {
 }
 
 void BlockCholesky::solve(Span<BlockVector> x) const {
-  UNISIM_DISPATCH(kSupernodal).forward(supernodes(), blocks_.data(), 0, supernodes_, x.data());
+  UNISIM_DISPATCH(forward_supernodes(supernodes(), blocks_.data(), 0, supernodes_, x.data()));
   backward(x);
 }
 

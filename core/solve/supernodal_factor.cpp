@@ -126,7 +126,9 @@ void backward_run(const Run& J, const Block* L, BlockVector* x) {
   }
 }
 
-int32_t factorize(const FactorTask& task) {
+}  // namespace
+
+int32_t factorize_supernodes(const FactorTask& task) {
   const Supernodes& S = task.S;
   for (int32_t s = 0; s < S.count; ++s) task.lists.first[s] = -1;
   for (int32_t s = 0; s < S.count; ++s) {
@@ -151,18 +153,15 @@ int32_t factorize(const FactorTask& task) {
   return -1;
 }
 
-void forward(const Supernodes& S, const Block* L, int32_t begin, int32_t end, BlockVector* x) {
+void forward_supernodes(const Supernodes& S, const Block* L, int32_t begin, int32_t end,
+                        BlockVector* x) {
   for (int32_t s = begin; s < end; ++s) forward_run(Run(S, s), L, x);
 }
 
-void backward(const Supernodes& S, const Block* L, int32_t begin, int32_t end, BlockVector* x) {
+void backward_supernodes(const Supernodes& S, const Block* L, int32_t begin, int32_t end,
+                         BlockVector* x) {
   for (int32_t s = end - 1; s >= begin; --s) backward_run(Run(S, s), L, x);
 }
-
-}  // namespace
-
-extern const SupernodalKernels kSupernodal;
-const SupernodalKernels kSupernodal = {factorize, forward, backward};
 
 }  // namespace UNISIM_ISA
 }  // namespace unisim

@@ -21,24 +21,25 @@ struct FactorTask {
   BlockVector* x;
 };
 
-/// The numeric phase, one set of functions per instruction set.
-struct SupernodalKernels {
-  /// L L' = H + lambda diag(H), left-looking over the supernodes.
-  /// @return -1; else the column whose pivot is not finite or not above 1e-13 of its diagonal
-  int32_t (*factorize)(const FactorTask& task);
-  /// x := L^-1 x for the supernodes begin .. end - 1.
-  void (*forward)(const Supernodes& S, const Block* L, int32_t begin, int32_t end, BlockVector* x);
-  /// x := L'^-1 x for the supernodes begin .. end - 1.
-  void (*backward)(const Supernodes& S, const Block* L, int32_t begin, int32_t end, BlockVector* x);
-};
-
+// factorize_supernodes(): L L' = H + lambda diag(H), left-looking over the supernodes.
+// @return -1; else the column whose pivot is not finite or not above 1e-13 of its diagonal
+// forward_supernodes(): x := L^-1 x for the supernodes begin .. end - 1.
+// backward_supernodes(): x := L'^-1 x for them.
 namespace baseline {
-extern const SupernodalKernels kSupernodal;
-}
+int32_t factorize_supernodes(const FactorTask& task);
+void forward_supernodes(const Supernodes& S, const Block* L, int32_t begin, int32_t end,
+                        BlockVector* x);
+void backward_supernodes(const Supernodes& S, const Block* L, int32_t begin, int32_t end,
+                         BlockVector* x);
+}  // namespace baseline
 #ifdef UNISIM_HAS_AVX2
 namespace avx2 {
-extern const SupernodalKernels kSupernodal;
-}
+int32_t factorize_supernodes(const FactorTask& task);
+void forward_supernodes(const Supernodes& S, const Block* L, int32_t begin, int32_t end,
+                        BlockVector* x);
+void backward_supernodes(const Supernodes& S, const Block* L, int32_t begin, int32_t end,
+                         BlockVector* x);
+}  // namespace avx2
 #endif
 
 }  // namespace unisim
