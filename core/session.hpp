@@ -335,6 +335,8 @@ class Session {
   int32_t window_pair_capacity_ = 0;
   int32_t window_pairs_ = 0;  // pairs of submaps that share keyframes
   int32_t next_segment_ = 0;
+  bool window_came_ = false;      // since the last optimisation
+  bool skeleton_is_due_ = true;   // since it was optimised a loop has come, gone or changed
   uint64_t solved_revision_ = 0;  // of the graph at the end of the last optimisation
   double variance_factor_ = 0.0;  // of that optimisation
 };

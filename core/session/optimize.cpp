@@ -39,6 +39,8 @@ int32_t degrees_of_freedom(const Graph& graph) {
 
 }  // namespace
 
+// A new window says nothing about the skeleton, which only loops tie together: it waits for the
+// next of those, or for a call without anything new.
 Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
   *report = OptimizeReport();
   for (int32_t node = 0; node < graph_.node_end(); ++node) before_[node] = graph_.pose(node);
@@ -46,6 +48,7 @@ Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
   options.max_iterations = max_iterations > 0 ? max_iterations : config_.max_iterations;
   options.least_move = kStillMove;
   options.relinearize = kRelinearize;
+  options.hold_skeleton = window_came_ && !skeleton_is_due_ && !skeleton_.empty();
   Status status = Status::kOk;
   do {
     if (!holds(gauge_.apply(&graph_))) return Status::kInternal;
@@ -56,6 +59,8 @@ Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
   describe_bad_node(report);
   if (status == Status::kNotReady || status == Status::kCapacity) return status;
   ++counts_.optimizations;
+  window_came_ = false;
+  skeleton_is_due_ = !is_ok(status);
   describe_changes(report);
   judge_loops();
   if (!holds(gauge_.apply(&graph_))) return Status::kInternal;

@@ -28,6 +28,7 @@ Status Session::update_submap(const SubmapUpdate& update) {
     submap.center_sigma = update.center_sigma;
     submap.multiplier = quality_multiplier(update.center_sigma);
   }
+  skeleton_is_due_ = skeleton_is_due_ || submap.is_loop;
   update_views(update, &submap);
   update_shared(update);
   return broken_ ? Status::kInternal : Status::kOk;

@@ -33,6 +33,7 @@ void Session::judge_loops() {
     if (graph_.edge(loop.edge).suspended == loop.health.suspended) continue;
     holds(graph_.set_suspended(loop.edge, loop.health.suspended));
     gauge_.edges_changed();
+    skeleton_is_due_ = true;
   }
 }
 
@@ -88,6 +89,7 @@ void Session::suspend_edges(const Submap& loop, bool suspended) {
     if (edge < 0 || graph_.edge(edge).suspended == suspended) return;
     holds(graph_.set_suspended(edge, suspended));
     gauge_.edges_changed();
+    skeleton_is_due_ = true;
   };
   for (int32_t k = 0; k < loop.count; ++k) {
     set(submaps_.view(loop, k).bridge);
@@ -109,6 +111,7 @@ Status Session::remove_loop(int32_t id) {
   }
   Submap& loop = submaps_[id];
   LogLine line;
+  skeleton_is_due_ = true;
   line << "loop " << id << " removed by the host";
   line.send(config_.log, LogLevel::kInfo);
   if (loop.retired) {

@@ -58,6 +58,7 @@ Status Session::add_submap(const SubmapInput& input, bool is_loop, int32_t* id) 
   if (!is_loop) keep_shared_depth(input, made, answered);
   count_cover(made);
   if (is_loop && !live_loops_.push_back(made)) holds(Status::kInternal);
+  (is_loop ? skeleton_is_due_ : window_came_) = true;
   if (!is_loop && slides()) retire_surplus(made);
   make_node_room();
   ++(is_loop ? counts_.loops : counts_.windows);
@@ -159,6 +160,7 @@ void Session::place_submap(Submap* submap) {
   for (int32_t k = 0; k < submap->count; ++k) {
     const SubmapView& view = submaps_.view(*submap, k);
     if (view.measured && keyframes_[view.keyframe].segment != origin.segment) {
+      skeleton_is_due_ = true;
       join_segment(*submap, keyframes_[view.keyframe].segment, origin.segment);
       if (submap->is_loop) tracking_.segments_joined_by_loop();
     }

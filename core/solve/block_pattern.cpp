@@ -55,7 +55,8 @@ BlockPattern::BlockPattern(Arena& arena, const SolverCapacity& capacity)
       order_(arena.take<int32_t>(capacity.nodes)),
       work_(arena.take<int32_t>(work_size(capacity))) {}
 
-Status BlockPattern::build(const Graph& graph) {
+Status BlockPattern::build(const Graph& graph, bool hold_skeleton) {
+  holds_skeleton_ = hold_skeleton;
   if (graph.node_end() > capacity_.nodes || graph.edge_end() > capacity_.edges) {
     return Status::kCapacity;
   }
@@ -86,7 +87,7 @@ void BlockPattern::number_rest(const Graph& graph) {
       node_of_column_[columns_++] = id;
     }
   };
-  number(true);
+  if (!holds_skeleton_) number(true);
   first_late_ = columns_;
   number(false);
 }

@@ -40,9 +40,10 @@ class BlockPattern {
   BlockPattern(Arena& arena, const SolverCapacity& capacity);
 
   /// Read the structure of a graph and order its free nodes by minimum degree.
+  /// @param hold_skeleton skeleton nodes count as fixed, here and in rebuild()
   /// @return kOk; kCapacity when nodes, edges or pairs exceed the declared ones; kNotReady without
   /// a free node
-  Status build(const Graph& graph);
+  Status build(const Graph& graph, bool hold_skeleton = false);
   /// The same after a change of the graph: `kept` columns keep their order, the others are ordered
   /// behind them by minimum degree.
   /// @return as build(); kNotReady also when the rest is too entangled to be ordered apart: build()
@@ -69,6 +70,7 @@ class BlockPattern {
   void place_pairs(const Graph& graph);
 
   SolverCapacity capacity_;
+  bool holds_skeleton_ = false;
   int32_t columns_ = 0;
   int32_t first_late_ = 0;  // column, before ordering
   int32_t pairs_ = 0;

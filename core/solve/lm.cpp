@@ -90,6 +90,12 @@ void LevenbergMarquardt::note_changed_edge(const Graph& graph, int32_t id) {
   }
 }
 
+// What is fixed decides the structure.
+void LevenbergMarquardt::hold_skeleton(bool hold) {
+  if (hold != holds_skeleton_) structure_revision_ = 0;
+  holds_skeleton_ = hold;
+}
+
 Status LevenbergMarquardt::prepare(const Graph& graph, const LmObserver& observer) {
   const bool known = structure_revision_ != 0;
   if (known) note_changes(graph);
@@ -98,7 +104,7 @@ Status LevenbergMarquardt::prepare(const Graph& graph, const LmObserver& observe
   undamped_revision_ = 0;
   if (!known || !reorder_changed(graph, observer)) {
     tell(observer, LmPhase::kOrder, LmReport());
-    Status status = pattern_.build(graph);
+    Status status = pattern_.build(graph, holds_skeleton_);
     if (!is_ok(status)) return status;
     tell(observer, LmPhase::kAnalyze, LmReport());
     status = cholesky_.analyze(pattern_.column_start(), pattern_.rows());
@@ -149,6 +155,7 @@ Status LevenbergMarquardt::optimize(Graph* graph, const LmOptions& options, LmRe
   if (!valid_options(options)) return Status::kInvalidArgument;
   if (graph->edge_count() == 0) return Status::kNotReady;
   relinearize_ = options.relinearize;
+  hold_skeleton(options.hold_skeleton);
   const Status status = prepare(*graph, options.observer);
   report->factor_blocks = cholesky_.needed_blocks();
   if (!is_ok(status)) return status;
@@ -295,6 +302,7 @@ void LevenbergMarquardt::restore_poses(Graph* graph, double least_move) const {
 Status LevenbergMarquardt::marginal_covariance(const Graph& graph, int32_t node, Mat7* covariance) {
   if (!graph.has_node(node) || graph.node(node).fixed) return Status::kInvalidArgument;
   if (undamped_revision_ != graph.revision()) {
+    hold_skeleton(false);
     Status status = prepare(graph, LmObserver());
     if (!is_ok(status)) return status;
     undamped_revision_ = 0;

@@ -21,8 +21,9 @@ struct LmOptions {
   double step_tolerance = 1e-7;  ///< stop when no component of the step is larger
   double least_move = 0.0;       ///< nodes whose step has no larger component stay where they are:
                                  ///< what only they see is neither linearised nor factorised anew
-  double relinearize = 0.0;  ///< edges whose relative pose has changed by no more since they were
-                             ///< linearised keep their part of H; the gradient stays exact
+  double relinearize = 0.0;    ///< edges whose relative pose has changed by no more since they were
+                               ///< linearised keep their part of H; the gradient stays exact
+  bool hold_skeleton = false;  ///< skeleton nodes stay where they are
   double max_log_scale_step = 1.0;  ///< larger log-scale: the whole step is shortened
   LmObserver observer;  ///< called on the caller's thread; may not touch the solver or the graph
 };
@@ -71,6 +72,7 @@ class LevenbergMarquardt {
   const BlockPattern& pattern() const { return pattern_; }
 
  private:
+  void hold_skeleton(bool hold);
   double linearize(const Graph& graph);
   double linearize_all(const Graph& graph);
   void note_changes(const Graph& graph);
@@ -93,6 +95,7 @@ class LevenbergMarquardt {
   Span<BlockVector> step_;
   Span<Sim3> saved_;
   double relinearize_ = 0.0;         // of the present options
+  bool holds_skeleton_ = false;      // of the analysed structure
   double fill_ = 0.0;                // blocks per column of the last order of all columns
   double step_size_ = 0.0;           // largest component of step_
   double shortened_ = 1.0;           // factor by which step_ is shorter than the solution

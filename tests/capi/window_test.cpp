@@ -84,6 +84,23 @@ TEST_CASE("a loop moves keyframes that have long retired") {
   CHECK(error_window < 1.3 * error_batch);
 }
 
+TEST_CASE("a new window waits for the next loop, or for a call without news, to move the past") {
+  World world(100, 12U, kNoise);
+  Host host(small_windows(2));
+  feed(host, world, 60);
+  REQUIRE(host.add_loop(world.views(both(2, 50))) >= 0);
+  host.optimize(1);
+  const unisim::Sim3 before = from_c(host.pose(20).T_world_kf);
+  const int32_t newest = host.info().submaps;
+  feed(host, world, 6);
+  REQUIRE(host.info().submaps > newest);
+  const unisim::Sim3 held = from_c(host.pose(20).T_world_kf);
+  CHECK(held.t == before.t);
+  CHECK(held.s == before.s);
+  host.optimize();
+  CHECK((from_c(host.pose(20).T_world_kf).t - held.t).norm() > 1e-9);
+}
+
 TEST_CASE("a loop whose keyframes have retired goes on holding the map") {
   World world(100, 12U, kNoise);
   Host host(small_windows(2));

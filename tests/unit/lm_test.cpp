@@ -63,6 +63,29 @@ TEST_CASE("a consistent graph is solved to the truth") {
   CHECK(report.factor_blocks == 11 + 10);  // the fixed node cuts the ring: a chain fills nothing
 }
 
+TEST_CASE("skeleton nodes can be held and released again") {
+  Ring ring(12, 0.4);
+  const auto pose = [&](int32_t node) { return ring.graph->pose(node); };
+  for (const int32_t node : {3, 4}) {
+    REQUIRE(is_ok(ring.graph->set_kind(node, NodeKind::kSkeleton)));
+  }
+  const Sim3 before[2] = {pose(3), pose(4)};
+  LmOptions options;
+  options.max_iterations = 30;
+  options.hold_skeleton = true;
+  LmReport report;
+  REQUIRE(ring.lm->optimize(&*ring.graph, options, &report) == Status::kOk);
+  CHECK(difference(pose(3), before[0]) == 0.0);
+  CHECK(difference(pose(4), before[1]) == 0.0);
+  CHECK(report.final_cost < report.initial_cost);
+  CHECK(report.final_cost == Approx(ring.graph->cost()));
+  Mat7 covariance;
+  CHECK(ring.lm->marginal_covariance(*ring.graph, 3, &covariance) == Status::kOk);
+  options.hold_skeleton = false;
+  REQUIRE(ring.lm->optimize(&*ring.graph, options, &report) == Status::kOk);
+  CHECK(ring.error() < 1e-6);
+}
+
 TEST_CASE("the budget ends the work and the cost has not grown") {
   Ring ring(12, 0.4);
   LmOptions options;

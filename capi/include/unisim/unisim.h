@@ -388,7 +388,9 @@ typedef struct unisim_report {
 } unisim_report;
 
 /** Optimise the graph from the present poses (Levenberg-Marquardt). Never aborts: poses stay at the
- *  last accepted step. Each segment keeps its first keyframe where it is.
+ *  last accepted step. Each segment keeps its first keyframe where it is. In a sliding window the
+ *  past, which only loops tie together, stays when nothing but a window has come since the last
+ * call.
  *  @param session live session
  *  @param[in]  budget NULL: the configured cap
  *  @param[out] report may be NULL
