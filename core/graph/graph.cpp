@@ -120,6 +120,7 @@ Status Graph::set_fixed(int32_t id, bool fixed) {
 Status Graph::set_kind(int32_t id, NodeKind kind) {
   if (!has_node(id)) return Status::kInvalidArgument;
   nodes_[id].kind = kind;
+  changes_[id] |= kNodeHeld | kNodeRelinked;
   structure_changed();
   return Status::kOk;
 }

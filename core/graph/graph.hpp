@@ -26,7 +26,7 @@ struct GraphCapacity {
 enum NodeChange : uint8_t {
   kNodeMoved = 1,     ///< its pose: what its edges say has changed at both ends
   kNodeRelinked = 2,  ///< an edge of it came, went or got other numbers
-  kNodeHeld = 4       ///< it was held or released: what its edges add to the system has changed
+  kNodeHeld = 4       ///< whether it is held, or its kind: its edges may add to other columns
 };
 
 /// What every edge is given besides its measurement.

@@ -86,6 +86,45 @@ TEST_CASE("skeleton nodes can be held and released again") {
   CHECK(ring.error() < 1e-6);
 }
 
+TEST_CASE("a node that joins the skeleton is held from then on") {
+  // Leaves that see the hub and a fixed node: eliminating one leaves the order of the others alone.
+  constexpr int32_t kHub = 1;
+  constexpr int32_t kLeaves = 12;
+  constexpr int32_t kNodes = 2 + kLeaves;
+  for (const int32_t joins : {kHub, 7}) {
+    unisim_test::Random random(9);
+    CarvedGraph graph({kNodes, 2 * kNodes, 2 * kNodes});
+    CarvedLm lm({kNodes, 2 * kNodes, 2 * kNodes, dense_factor_blocks(kNodes)});
+    int32_t id = -1;
+    for (int32_t k = 0; k < kNodes; ++k) {
+      REQUIRE(is_ok(graph->add_node(NodeKind::kKeyframe, random.pose(1.0, 1.0, 0.1), &id)));
+    }
+    REQUIRE(is_ok(graph->set_fixed(0, true)));
+    REQUIRE(is_ok(graph->add_two_view(0, kHub, random.pose(1.0, 1.0, 0.1), {}, &id)));
+    for (int32_t leaf = 2; leaf < kNodes; ++leaf) {
+      REQUIRE(is_ok(graph->add_two_view(0, leaf, random.pose(1.0, 1.0, 0.1), {}, &id)));
+      REQUIRE(is_ok(graph->add_two_view(kHub, leaf, random.pose(1.0, 1.0, 0.1), {}, &id)));
+    }
+    LmOptions options;
+    options.max_iterations = 50;
+    options.hold_skeleton = true;
+    options.relinearize = 10.0;  // so that the order is renewed in parts
+    LmReport report;
+    REQUIRE(lm->optimize(&*graph, options, &report) == Status::kOk);
+    REQUIRE(is_ok(graph->set_kind(joins, NodeKind::kSkeleton)));
+    REQUIRE(is_ok(graph->set_measurement(0, random.pose(1.0, 1.0, 0.1))));  // relinks the hub
+    const Sim3 before = graph->pose(joins);
+    CAPTURE(joins);
+    REQUIRE(lm->optimize(&*graph, options, &report) == Status::kOk);
+    CHECK(difference(graph->pose(joins), before) == 0.0);
+    CHECK(report.final_cost == Approx(graph->cost()));
+    CarvedLm fresh({kNodes, 2 * kNodes, 2 * kNodes, dense_factor_blocks(kNodes)});
+    LmReport again;
+    REQUIRE(fresh->optimize(&*graph, options, &again) == Status::kOk);
+    CHECK(again.final_cost == Approx(report.final_cost).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("the budget ends the work and the cost has not grown") {
   Ring ring(12, 0.4);
   LmOptions options;
