@@ -284,6 +284,7 @@ class Session {
   void judge(LoopHealth* health, int32_t loop, double norm);
   double loop_norm(const Submap& loop) const;
   void suspend(LoopHealth* health, int32_t loop, bool suspended);
+  void suspend_edge(int32_t edge, bool suspended);
   void suspend_edges(const Submap& loop, bool suspended);
   void place_again(Submap* loop);
 

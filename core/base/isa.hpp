@@ -14,10 +14,22 @@
 /// Inlined even without optimisation: leaves no symbol behind.
 #define UNISIM_ALWAYS_INLINE inline __attribute__((always_inline))
 
+// UNISIM_EACH_ISA(declarations): declares the functions of a vectorised source, every copy of them.
+// UNISIM_DISPATCH(call): calls one of these functions, the copy for this processor.
 #ifdef UNISIM_HAS_AVX2
 #include "core/base/cpu.hpp"
-/// Calls a function of a vectorised source, the copy for this processor.
+#define UNISIM_EACH_ISA(...) \
+  namespace baseline {       \
+  __VA_ARGS__                \
+  }                          \
+  namespace avx2 {           \
+  __VA_ARGS__                \
+  }
 #define UNISIM_DISPATCH(call) (cpu_has_avx2() ? avx2::call : baseline::call)
 #else
+#define UNISIM_EACH_ISA(...) \
+  namespace baseline {       \
+  __VA_ARGS__                \
+  }
 #define UNISIM_DISPATCH(call) (baseline::call)
 #endif

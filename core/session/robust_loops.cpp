@@ -30,10 +30,7 @@ void Session::judge_loops() {
   for (LoopEdge& loop : loop_edges_) {
     if (loop.edge < 0) continue;
     judge(&loop.health, loop.loop, graph_.edge_norm(loop.edge));
-    if (graph_.edge(loop.edge).suspended == loop.health.suspended) continue;
-    holds(graph_.set_suspended(loop.edge, loop.health.suspended));
-    gauge_.edges_changed();
-    skeleton_is_due_ = true;
+    suspend_edge(loop.edge, loop.health.suspended);
   }
 }
 
@@ -85,16 +82,17 @@ double Session::loop_norm(const Submap& loop) const {
 }
 
 void Session::suspend_edges(const Submap& loop, bool suspended) {
-  const auto set = [&](int32_t edge) {
-    if (edge < 0 || graph_.edge(edge).suspended == suspended) return;
-    holds(graph_.set_suspended(edge, suspended));
-    gauge_.edges_changed();
-    skeleton_is_due_ = true;
-  };
   for (int32_t k = 0; k < loop.count; ++k) {
-    set(submaps_.view(loop, k).bridge);
-    set(submaps_.view(loop, k).anchor);
+    suspend_edge(submaps_.view(loop, k).bridge, suspended);
+    suspend_edge(submaps_.view(loop, k).anchor, suspended);
   }
+}
+
+void Session::suspend_edge(int32_t edge, bool suspended) {
+  if (edge < 0 || graph_.edge(edge).suspended == suspended) return;
+  holds(graph_.set_suspended(edge, suspended));
+  gauge_.edges_changed();
+  skeleton_is_due_ = true;
 }
 
 /// While it was suspended the map went on: it sits on its origin again.
@@ -110,8 +108,8 @@ Status Session::remove_loop(int32_t id) {
     return Status::kInvalidArgument;
   }
   Submap& loop = submaps_[id];
-  LogLine line;
   skeleton_is_due_ = true;
+  LogLine line;
   line << "loop " << id << " removed by the host";
   line.send(config_.log, LogLevel::kInfo);
   if (loop.retired) {

@@ -332,7 +332,7 @@ void BlockCholesky::inverse_block(int32_t column, Span<BlockVector> work, Mat7* 
     top = s;
   }
   for (int32_t s = top; s != -1; s = child[s]) {
-    UNISIM_DISPATCH(invert_supernode)(task, s);
+    UNISIM_DISPATCH(invert_supernode(task, s));
     stale_[s] = Staleness::kFactor;
   }
   *out = as_matrix(blocks_[diagonal_[column]]);

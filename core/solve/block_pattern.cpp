@@ -55,8 +55,7 @@ BlockPattern::BlockPattern(Arena& arena, const SolverCapacity& capacity)
       order_(arena.take<int32_t>(capacity.nodes)),
       work_(arena.take<int32_t>(work_size(capacity))) {}
 
-Status BlockPattern::build(const Graph& graph, bool hold_skeleton) {
-  holds_skeleton_ = hold_skeleton;
+Status BlockPattern::build(const Graph& graph) {
   if (graph.node_end() > capacity_.nodes || graph.edge_end() > capacity_.edges) {
     return Status::kCapacity;
   }

@@ -40,14 +40,17 @@ class BlockPattern {
   BlockPattern(Arena& arena, const SolverCapacity& capacity);
 
   /// Read the structure of a graph and order its free nodes by minimum degree.
-  /// @param hold_skeleton skeleton nodes count as fixed, here and in rebuild()
   /// @return kOk; kCapacity when nodes, edges or pairs exceed the declared ones; kNotReady without
   /// a free node
-  Status build(const Graph& graph, bool hold_skeleton = false);
+  Status build(const Graph& graph);
   /// The same after a change of the graph: `kept` columns keep their order, the others are ordered
   /// behind them by minimum degree.
   /// @return as build(); kNotReady also when the rest is too entangled to be ordered apart: build()
   Status rebuild(const Graph& graph, const KeptOrder& kept);
+
+  /// Whether skeleton nodes count as fixed, from the next build() on.
+  void hold_skeleton(bool hold) { holds_skeleton_ = hold; }
+  bool holds_skeleton() const { return holds_skeleton_; }
 
   int32_t columns() const { return columns_; }
   int32_t pairs() const { return pairs_; }

@@ -92,8 +92,8 @@ void LevenbergMarquardt::note_changed_edge(const Graph& graph, int32_t id) {
 
 // What is fixed decides the structure.
 void LevenbergMarquardt::hold_skeleton(bool hold) {
-  if (hold != holds_skeleton_) structure_revision_ = 0;
-  holds_skeleton_ = hold;
+  if (hold != pattern_.holds_skeleton()) structure_revision_ = 0;
+  pattern_.hold_skeleton(hold);
 }
 
 Status LevenbergMarquardt::prepare(const Graph& graph, const LmObserver& observer) {
@@ -104,7 +104,7 @@ Status LevenbergMarquardt::prepare(const Graph& graph, const LmObserver& observe
   undamped_revision_ = 0;
   if (!known || !reorder_changed(graph, observer)) {
     tell(observer, LmPhase::kOrder, LmReport());
-    Status status = pattern_.build(graph, holds_skeleton_);
+    Status status = pattern_.build(graph);
     if (!is_ok(status)) return status;
     tell(observer, LmPhase::kAnalyze, LmReport());
     status = cholesky_.analyze(pattern_.column_start(), pattern_.rows());

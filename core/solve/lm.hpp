@@ -95,7 +95,6 @@ class LevenbergMarquardt {
   Span<BlockVector> step_;
   Span<Sim3> saved_;
   double relinearize_ = 0.0;         // of the present options
-  bool holds_skeleton_ = false;      // of the analysed structure
   double fill_ = 0.0;                // blocks per column of the last order of all columns
   double step_size_ = 0.0;           // largest component of step_
   double shortened_ = 1.0;           // factor by which step_ is shorter than the solution

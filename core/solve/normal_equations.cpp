@@ -66,9 +66,8 @@ NormalEquations::Ends NormalEquations::ends_of(const Graph& graph, int32_t id) c
   ends.diagonal_a = wants_a ? target_.blocks + target_.diagonal[a] : sink;
   ends.diagonal_b = wants_b ? target_.blocks + target_.diagonal[b] : sink;
   ends.coupling = has_place ? target_.blocks + target_.off_diagonal[place.slot] : sink;
-  BlockVector* const no_gradient = gradient_.end() - 1;
-  ends.gradient_a = changed_a ? &gradient_[a] : no_gradient;
-  ends.gradient_b = changed_b ? &gradient_[b] : no_gradient;
+  ends.gradient_a = changed_a ? &gradient_[a] : no_gradient();
+  ends.gradient_b = changed_b ? &gradient_[b] : no_gradient();
   return ends;
 }
 
@@ -84,7 +83,7 @@ void NormalEquations::clear_changed() {
   for (int32_t column = 0; column < columns_; ++column) {
     if (has_changed(column)) gradient_[column] = BlockVector{};
   }
-  gradient_[gradient_.size() - 1] = BlockVector{};
+  *no_gradient() = BlockVector{};
   sink_[0] = Block{};
 }
 
@@ -103,7 +102,8 @@ double NormalEquations::linearize(const Graph& graph, const BlockPattern& patter
     }
     const Ends ends = ends_of(graph, id);
     if (!ends.needs_blocks && !ends.needs_gradient) continue;
-    if (remember && (ends.is_whole || !points_.knows(id))) points_.set(graph, id);
+    const bool moves_here = ends.is_whole && !points_.is_here(id);
+    if (remember && (moves_here || !points_.knows(id))) points_.set(graph, id);
     if (is_pose_factor(edge.kind)) {
       add_pose_edge(graph, id, ends, &quads);
     } else {
@@ -144,14 +144,13 @@ void NormalEquations::add_pose_edge(const Graph& graph, int32_t id, const Ends& 
   out.g_b = ends.gradient_b->v;
   out.cost = &edge_cost_[id];
   const bool is_here = points_.is_here(id);
-  if (ends.needs_gradient && !(ends.needs_blocks && is_here))
-    quads->add_gradient(shape_of(edge), out);
+  const bool both_at_once = ends.needs_blocks && is_here;
+  if (ends.needs_gradient && !both_at_once) quads->add_gradient(shape_of(edge), out);
   if (!ends.needs_blocks) return;
   if (!is_here) {
     out.A = kOrigin;
     out.B = numbers(points_.relative_pose(id));
-    out.g_a = (gradient_.end() - 1)->v;
-    out.g_b = out.g_a;
+    out.g_a = out.g_b = no_gradient()->v;
     out.cost = edge_cost_.end() - 1;
   }
   quads->add(shape_of(edge), ends.a_is_later, out);

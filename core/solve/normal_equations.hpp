@@ -52,6 +52,8 @@ class NormalEquations {
  private:
   struct Ends;
   Ends ends_of(const Graph& graph, int32_t id) const;
+  /// A vector that nobody reads.
+  BlockVector* no_gradient() const { return gradient_.end() - 1; }
   void clear_changed();
   void add_pose_edge(const Graph& graph, int32_t id, const Ends& ends, QuadCollector* quads);
   void add_scale_edge(const Graph& graph, int32_t id, const Ends& ends);

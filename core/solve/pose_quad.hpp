@@ -42,12 +42,7 @@ struct PoseQuad {
   double* cost[kEdges];  ///< rho(u) of each edge, overwritten
 };
 
-namespace baseline {
-void add_pose_quad(const PoseQuad& quad);
-}
-namespace avx2 {
-void add_pose_quad(const PoseQuad& quad);
-}
+UNISIM_EACH_ISA(void add_pose_quad(const PoseQuad& quad);)
 
 /// Adds w J'J (or not) and w J'e of four edges to their blocks, in the order of the quad. Of
 /// diagonal blocks only the lower triangle has a meaning. Weight 0 makes an edge that adds nothing.

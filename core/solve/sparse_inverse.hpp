@@ -22,13 +22,6 @@ struct InverseTask {
 
 // invert_supernode(): turns the blocks of supernode s into those of S. All above it have been
 // turned.
-namespace baseline {
-void invert_supernode(const InverseTask& task, int32_t s);
-}
-#ifdef UNISIM_HAS_AVX2
-namespace avx2 {
-void invert_supernode(const InverseTask& task, int32_t s);
-}
-#endif
+UNISIM_EACH_ISA(void invert_supernode(const InverseTask& task, int32_t s);)
 
 }  // namespace unisim

@@ -11,11 +11,10 @@ namespace unisim {
 struct FactorTask {
   Supernodes S;
   SupernodeLists lists;
-  const Staleness* stale;  ///< by supernode; an ancestor is at least as stale
-  double lambda;           ///< damping
-  Block* blocks;           ///< H, overwritten by L
-  BlockVector*
-      H_diagonal;  ///< columns; [out] the diagonal of H before damping, where that is stale
+  const Staleness* stale;   ///< by supernode; an ancestor is at least as stale
+  double lambda;            ///< damping
+  Block* blocks;            ///< H, overwritten by L
+  BlockVector* H_diagonal;  ///< columns; [out] where H is stale its diagonal before damping
   /// Columns, or nullptr: x := L^-1 x on the way, while L is at hand. Where nothing is stale x is
   /// the result of the last time already.
   BlockVector* x;
@@ -25,21 +24,10 @@ struct FactorTask {
 // @return -1; else the column whose pivot is not finite or not above 1e-13 of its diagonal
 // forward_supernodes(): x := L^-1 x for the supernodes begin .. end - 1.
 // backward_supernodes(): x := L'^-1 x for them.
-namespace baseline {
-int32_t factorize_supernodes(const FactorTask& task);
-void forward_supernodes(const Supernodes& S, const Block* L, int32_t begin, int32_t end,
-                        BlockVector* x);
-void backward_supernodes(const Supernodes& S, const Block* L, int32_t begin, int32_t end,
-                         BlockVector* x);
-}  // namespace baseline
-#ifdef UNISIM_HAS_AVX2
-namespace avx2 {
-int32_t factorize_supernodes(const FactorTask& task);
-void forward_supernodes(const Supernodes& S, const Block* L, int32_t begin, int32_t end,
-                        BlockVector* x);
-void backward_supernodes(const Supernodes& S, const Block* L, int32_t begin, int32_t end,
-                         BlockVector* x);
-}  // namespace avx2
-#endif
+UNISIM_EACH_ISA(int32_t factorize_supernodes(const FactorTask& task);
+                void forward_supernodes(const Supernodes& S, const Block* L, int32_t begin,
+                                        int32_t end, BlockVector* x);
+                void backward_supernodes(const Supernodes& S, const Block* L, int32_t begin,
+                                         int32_t end, BlockVector* x);)
 
 }  // namespace unisim
