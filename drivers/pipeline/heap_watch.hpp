@@ -12,6 +12,9 @@ struct HeapWatch {
   void (*enter)() = nullptr;
   void (*leave)() = nullptr;
   int64_t (*count)() = nullptr;  ///< calls so far, of all threads
+
+  /// Calls so far, 0 where nothing is counted.
+  int64_t calls() const { return count != nullptr ? count() : 0; }
 };
 
 /// Marks one stay inside the library.

@@ -68,14 +68,14 @@ CovarianceRun run_covariance(const PoseGraph& source, const pipeline::HeapWatch&
   run.poses = static_cast<int32_t>(ids.size());
   const Span<const int32_t> every(ids.data(), run.poses);
   run.factor_blocks = all.report().factor_blocks;
-  const int64_t calls_before = heap.count != nullptr ? heap.count() : 0;
+  const int64_t calls_before = heap.calls();
   {
     const pipeline::InsideLibrary inside(heap);
     run.first_ms = few.read(every.subspan(run.poses - 1, 1));
     run.another_ms = few.read(every.subspan(run.poses / 2, 1));
     run.all_ms = all.read(every);
   }
-  run.heap_calls = heap.count != nullptr ? heap.count() - calls_before : 0;
+  run.heap_calls = heap.calls() - calls_before;
   run.trace_sum = all.trace_sum;
   return run;
 }

@@ -48,14 +48,14 @@ SolverRun run_solver(const PoseGraph& source, int32_t factor_blocks, LmOptions o
 
   Stopwatch watch(&run);
   options.observer = watch.observer();
-  const int64_t calls_before = heap.count != nullptr ? heap.count() : 0;
+  const int64_t calls_before = heap.calls();
   {
     const pipeline::InsideLibrary inside(heap);
     watch.start();
     run.status = problem.solver().optimize(&problem.graph(), options, &run.report);
     watch.stop();
   }
-  run.heap_calls = heap.count != nullptr ? heap.count() - calls_before : 0;
+  run.heap_calls = heap.calls() - calls_before;
   run.solve_ms = watch.elapsed_ms();
   run.cost = problem.graph().cost();
   run.resident_peak_kb = peak_resident_kb();

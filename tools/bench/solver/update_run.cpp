@@ -51,7 +51,7 @@ class Arrival {
   /// @return CPU time [ms]
   double optimize(UpdateRun* run) {
     LmReport report;
-    const int64_t calls_before = heap_.count != nullptr ? heap_.count() : 0;
+    const int64_t calls_before = heap_.calls();
     const double start = process_cpu_ms();
     Status status = Status::kOk;
     {
@@ -59,7 +59,7 @@ class Arrival {
       status = problem_.solver().optimize(&problem_.graph(), options_, &report);
     }
     const double elapsed = process_cpu_ms() - start;
-    run->heap_calls += heap_.count != nullptr ? heap_.count() - calls_before : 0;
+    run->heap_calls += heap_.calls() - calls_before;
     run->cost = report.final_cost;
     if (!is_ok(status)) {
       throw replay::Failure(replay::kExitLimit,

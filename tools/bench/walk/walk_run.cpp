@@ -152,9 +152,9 @@ WalkResult run_walk(const WalkSettings& settings, const pipeline::HeapWatch& hea
     loops = simulator::with_false_loops(world, simulator::find_loops(world), settings.false_loops,
                                         settings.seed);
   }
-  const int64_t before = heap.count != nullptr ? heap.count() : 0;
+  const int64_t before = heap.calls();
   WalkResult result = Walker(settings, world, loops, heap).walk();
-  result.heap_calls = heap.count != nullptr ? heap.count() - before : 0;
+  result.heap_calls = heap.calls() - before;
   if (settings.window_submaps == 0) {
     result.ate_over_batch = 1.0;
   } else if (settings.batch) {
