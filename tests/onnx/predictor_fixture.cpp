@@ -2,20 +2,12 @@
 // Predictors on the small models of this folder, and images for them.
 #include "tests/onnx/predictor_fixture.hpp"
 
-#include <fstream>
-#include <iterator>
-
 #include "drivers/onnx/error.hpp"
 #include "drivers/onnx/runtime.hpp"
 
 namespace unisim::testing {
 
 std::string model_file(const std::string& name) { return UNISIM_MODELS "/" + name; }
-
-std::string file_content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 std::string missing_runtime() {
   try {
@@ -44,6 +36,13 @@ Opened open_model(const std::string& model, const unisim_onnx_config& config) {
   return opened;
 }
 
+Opened open_with_encoder(const std::string& model, const std::string& encoder) {
+  unisim_onnx_config config = test_config();
+  const std::string path = model_file(encoder);
+  config.model_encoder = path.c_str();
+  return open_model(model, config);
+}
+
 Image colourful(int32_t width, int32_t height, int32_t seed) {
   Image image(width, height, 3);
   for (int32_t y = 0; y < height; ++y) {
@@ -54,6 +53,13 @@ Image colourful(int32_t width, int32_t height, int32_t seed) {
     }
   }
   return image;
+}
+
+std::vector<Image> colourful_images(int32_t width, int32_t height, int32_t count) {
+  std::vector<Image> images;
+  images.reserve(static_cast<size_t>(count));
+  for (int32_t seed = 0; seed < count; ++seed) images.push_back(colourful(width, height, seed));
+  return images;
 }
 
 void add_keyframes(unisim_predictor* predictor, const std::vector<Image>& images) {

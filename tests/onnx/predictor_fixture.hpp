@@ -15,9 +15,6 @@ namespace unisim::testing {
 
 std::string model_file(const std::string& name);
 
-/// All bytes of a file.
-std::string file_content(const std::string& path);
-
 /// Why no test that runs a model can run here, "" when it can.
 std::string missing_runtime();
 
@@ -44,6 +41,9 @@ struct Opened {
 /// @param model file name in models/, or a path
 Opened open_model(const std::string& model, const unisim_onnx_config& config = test_config());
 
+/// A model, and an encoder that need not lie beside it.
+Opened open_with_encoder(const std::string& model, const std::string& encoder);
+
 /// Owns its pixels.
 struct Image {
   Image(int32_t width, int32_t height, int32_t channels)
@@ -59,6 +59,9 @@ struct Image {
 
 /// BGR, every pixel another colour that depends on the seed.
 Image colourful(int32_t width, int32_t height, int32_t seed);
+
+/// So many of them, seeds 0, 1, 2 ...
+std::vector<Image> colourful_images(int32_t width, int32_t height, int32_t count);
 
 /// Hands images to a predictor as keyframes 0, 1, 2 ...
 void add_keyframes(unisim_predictor* predictor, const std::vector<Image>& images);

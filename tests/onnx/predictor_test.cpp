@@ -11,13 +11,6 @@ namespace {
 constexpr int32_t kWidth = 16;
 constexpr int32_t kHeight = 12;
 
-std::vector<Image> images(int32_t count) {
-  std::vector<Image> made;
-  made.reserve(static_cast<size_t>(count));
-  for (int32_t i = 0; i < count; ++i) made.push_back(colourful(kWidth, kHeight, i));
-  return made;
-}
-
 /// The model's centre of view k: A (1 + k, ...) re-anchored: R_0^T (c_k - c_0), R_0 = 90 deg about
 /// x.
 void check_pose(const unisim_sim3& pose, int32_t k) {
@@ -55,7 +48,7 @@ TEST_CASE("a pair has the closed-form pose, depth and focal length, from either 
     INFO(opened.message);
     REQUIRE(opened.predictor != nullptr);
     unisim_predictor* predictor = opened.predictor.get();
-    const std::vector<Image> views = images(3);
+    const std::vector<Image> views = colourful_images(kWidth, kHeight, 3);
     add_keyframes(predictor, views);
     unisim_pair_prediction pair{};
     REQUIRE(predictor->two_view(predictor, 1, 2, &pair) == UNISIM_PREDICTION_OK);
@@ -73,7 +66,7 @@ TEST_CASE("a window has the closed-form poses, also of a model with more views t
     const Opened opened = open_model(model);
     REQUIRE(opened.predictor != nullptr);
     unisim_predictor* predictor = opened.predictor.get();
-    const std::vector<Image> views = images(6);
+    const std::vector<Image> views = colourful_images(kWidth, kHeight, 6);
     add_keyframes(predictor, views);
     const int32_t ids[] = {0, 1, 2, 3, 4};
     unisim_window_prediction window{};
@@ -92,7 +85,7 @@ TEST_CASE("a pair stays valid while a window is predicted") {
   const Opened opened = open_model("multiview.onnx");
   REQUIRE(opened.predictor != nullptr);
   unisim_predictor* predictor = opened.predictor.get();
-  const std::vector<Image> views = images(4);
+  const std::vector<Image> views = colourful_images(kWidth, kHeight, 4);
   add_keyframes(predictor, views);
   unisim_pair_prediction pair{};
   REQUIRE(predictor->two_view(predictor, 2, 3, &pair) == UNISIM_PREDICTION_OK);
@@ -108,7 +101,7 @@ TEST_CASE("a window larger than the model takes is refused with what to do") {
   REQUIRE(opened.predictor != nullptr);
   unisim_predictor* predictor = opened.predictor.get();
   CHECK(unisim_onnx_window_size(predictor) == 8);
-  add_keyframes(predictor, images(9));
+  add_keyframes(predictor, colourful_images(kWidth, kHeight, 9));
   const int32_t ids[] = {0, 1, 2, 3, 4, 5, 6, 7, 8};
   unisim_window_prediction window{};
   CHECK(predictor->multi_view(predictor, ids, 9, &window) == UNISIM_PREDICTION_REJECTED);
@@ -120,7 +113,7 @@ TEST_CASE("a keyframe that has left the ring is named") {
   const Opened opened = open_model("multiview.onnx");
   REQUIRE(opened.predictor != nullptr);
   unisim_predictor* predictor = opened.predictor.get();
-  add_keyframes(predictor, images(40));
+  add_keyframes(predictor, colourful_images(kWidth, kHeight, 40));
   unisim_pair_prediction pair{};
   CHECK(predictor->two_view(predictor, 0, 1, &pair) == UNISIM_PREDICTION_REJECTED);
   CHECK(std::string(predictor->message(predictor)) == "keyframe 0 is not kept any more");
@@ -131,7 +124,7 @@ TEST_CASE("an image that does not fit is left out, the next one goes on") {
   const Opened opened = open_model("multiview.onnx");
   REQUIRE(opened.predictor != nullptr);
   unisim_predictor* predictor = opened.predictor.get();
-  add_keyframes(predictor, images(2));
+  add_keyframes(predictor, colourful_images(kWidth, kHeight, 2));
   const Image other = colourful(20, 12, 0);
   unisim_frame frame{};
   frame.index = 2;

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "tests/onnx/predictor_fixture.hpp"
+#include "tests/support/text.hpp"
 
 using namespace unisim::testing;
 namespace fs = std::filesystem;
@@ -18,10 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Words = std::vector<std::string>;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// The rendered walk, about 8 m long; lengths in metres ("0") or in a unit that changes ("0.3").
 std::string sequence(const std::string& spread) { return UNISIM_RENDERED "/spread-" + spread; }

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Models, libraries and providers that are not right: one line that says what, where, what to do.
 #include "tests/onnx/predictor_fixture.hpp"
+#include "tests/replay/program.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/text.hpp"
 
 using namespace unisim::testing;
 
 namespace {
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 void require_refusal(const Opened& opened, int32_t problem, const std::string& part) {
   INFO(opened.message);
@@ -35,7 +33,7 @@ TEST_CASE("a model that breaks the contract is refused by name") {
 TEST_CASE("a file that is no model, or not all of one, is refused") {
   UNISIM_SKIP_WITHOUT_RUNTIME();
   const TempFolder folder;
-  const std::string whole = file_content(model_file("multiview.onnx"));
+  const std::string whole = read_file(model_file("multiview.onnx"));
   REQUIRE(whole.size() > 1000);
   require_refusal(open_model(folder / "missing.onnx"), UNISIM_ONNX_BAD_MODEL, "no such file");
   require_refusal(open_model(folder.write("half.onnx", whole.substr(0, whole.size() / 2))),
@@ -48,7 +46,7 @@ TEST_CASE("a file that is no model, or not all of one, is refused") {
 TEST_CASE("a model with one byte changed is refused or runs, and never crashes") {
   UNISIM_SKIP_WITHOUT_RUNTIME();
   const TempFolder folder;
-  const std::string whole = file_content(model_file("multiview.onnx"));
+  const std::string whole = read_file(model_file("multiview.onnx"));
   const std::vector<Image> views = {colourful(16, 12, 0), colourful(16, 12, 1)};
   int32_t refused = 0;
   for (size_t at = 5; at < whole.size(); at += 61) {

@@ -4,7 +4,9 @@
 #include <filesystem>
 
 #include "tests/onnx/predictor_fixture.hpp"
+#include "tests/replay/program.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/text.hpp"
 
 using namespace unisim::testing;
 
@@ -12,25 +14,6 @@ namespace {
 
 constexpr int32_t kWidth = 16;
 constexpr int32_t kHeight = 12;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-std::vector<Image> images(int32_t count) {
-  std::vector<Image> made;
-  made.reserve(static_cast<size_t>(count));
-  for (int32_t i = 0; i < count; ++i) made.push_back(colourful(kWidth, kHeight, i));
-  return made;
-}
-
-/// A model with an encoder that does not lie beside it.
-Opened open_with_encoder(const std::string& model, const std::string& encoder) {
-  unisim_onnx_config config = test_config();
-  const std::string path = model_file(encoder);
-  config.model_encoder = path.c_str();
-  return open_model(model, config);
-}
 
 void require_refusal(const Opened& opened, const std::string& part) {
   INFO(opened.message);
@@ -46,7 +29,7 @@ std::vector<double> window_of(const std::string& model) {
   INFO(opened.message);
   REQUIRE(opened.predictor != nullptr);
   unisim_predictor* predictor = opened.predictor.get();
-  add_keyframes(predictor, images(5));
+  add_keyframes(predictor, colourful_images(kWidth, kHeight, 5));
   const int32_t ids[] = {0, 1, 2, 3, 4};
   unisim_window_prediction window{};
   REQUIRE(predictor->multi_view(predictor, ids, 5, &window) == UNISIM_PREDICTION_OK);
@@ -85,7 +68,7 @@ TEST_CASE("each keyframe is encoded once, whatever pairs and windows ask for") {
     REQUIRE(opened.predictor != nullptr);
     unisim_predictor* predictor = opened.predictor.get();
     CHECK(unisim_onnx_encoder_runs(predictor) == 0);
-    add_keyframes(predictor, images(7));
+    add_keyframes(predictor, colourful_images(kWidth, kHeight, 7));
     const int32_t ids[] = {0, 1, 2, 3, 4, 5, 6};
     unisim_pair_prediction pair{};
     unisim_window_prediction window{};
@@ -120,7 +103,7 @@ TEST_CASE("a keyframe whose features are not finite is named, the next ones go o
   INFO(opened.message);
   REQUIRE(opened.predictor != nullptr);
   unisim_predictor* predictor = opened.predictor.get();
-  std::vector<Image> views = images(5);
+  std::vector<Image> views = colourful_images(kWidth, kHeight, 5);
   for (Image& view : views) view.at(0, 0, 2) = 0;
   views[1].at(0, 0, 2) = 255;
   add_keyframes(predictor, views);
@@ -156,7 +139,7 @@ TEST_CASE("a model with the wrong input for what it says is refused") {
   UNISIM_SKIP_WITHOUT_RUNTIME();
   // The same file says that it takes images: only its metadata is changed, byte for byte.
   const TempFolder folder;
-  std::string text = file_content(model_file("split.onnx"));
+  std::string text = read_file(model_file("split.onnx"));
   const size_t at = text.find("unisim.input");
   REQUIRE(at != std::string::npos);
   text.replace(at, 12, "unisim.other");

@@ -11,10 +11,7 @@ namespace {
 /// A predictor whose encoder is upset by some keyframes, with these and their pairs behind it.
 struct Upset {
   Upset(int32_t keyframes, const std::vector<int32_t>& bad) {
-    unisim_onnx_config config = test_config();
-    const std::string encoder = model_file("split_nan.encoder.onnx");
-    config.model_encoder = encoder.c_str();
-    opened = open_model("split.onnx", config);
+    opened = open_with_encoder("split.onnx", "split_nan.encoder.onnx");
     INFO(opened.message);
     REQUIRE(opened.predictor != nullptr);
     for (int32_t i = 0; i < keyframes; ++i) {

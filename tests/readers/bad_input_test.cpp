@@ -8,12 +8,9 @@
 
 #include "tests/readers/playback.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 namespace {
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 // Keeps the first `share` of a file.
 void cut_file(const std::string& path, double share) {

@@ -10,15 +10,12 @@
 #include <vector>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 using namespace unisim::testing;
 namespace fs = std::filesystem;
 
 namespace {
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 int lines_in(const std::string& text) {
   return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
