@@ -2,7 +2,6 @@
 """A network of a few layers from torch to ONNX files: free views, split, fp16, int8."""
 
 import shutil
-import tempfile
 import unittest
 from dataclasses import replace
 from pathlib import Path
@@ -73,9 +72,7 @@ EXPORTER = SimpleNamespace(split=lambda whole, options: (whole.encoder, whole.re
 class Conversion(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        holder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(holder.cleanup)
-        cls.folder = Path(holder.name)
+        cls.folder = setting.fresh_folder(cls.addClassCleanup)
         cls.model = Whole().eval()
         keys = metadata(CARD, HEIGHT, WIDTH, "random:1")
         cls.whole = parts.whole(cls.model, OPTIONS, cls.folder / "whole.onnx", keys)
@@ -85,9 +82,8 @@ class Conversion(unittest.TestCase):
 
     def copied(self, files):
         """The files in a fresh folder, to be changed."""
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        return [replace(part, path=Path(shutil.copy(part.path, holder.name))) for part in files]
+        folder = setting.fresh_folder(self.addCleanup)
+        return [replace(part, path=Path(shutil.copy(part.path, folder))) for part in files]
 
     def largest_difference(self, path: Path, views: int) -> float:
         values = parts.example_input(OPTIONS, views).numpy()

@@ -6,9 +6,7 @@ Depth Anything 3 small stands for all: it is the one whose package installs with
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import setting
 
@@ -37,9 +35,7 @@ def differences(text: str) -> dict:
 class Models(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        holder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(holder.cleanup)
-        cls.folder = Path(holder.name)
+        cls.folder = setting.fresh_folder(cls.addClassCleanup)
         cls.told = {}
         for kind in BOUNDS:
             more = [] if kind == "float32" else [f"--{kind}"]

@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Which keyframes the windows hold, and the frames of a folder."""
 
-import tempfile
 import unittest
-from pathlib import Path
 
-import setting  # noqa: F401
+import setting
 from contract.errors import ExportError
 from recording.frames import UNKNOWN_TIME, list_frames
 from recording.schedule import loop_window, windows
@@ -42,9 +40,7 @@ class Windows(unittest.TestCase):
 
 class Frames(unittest.TestCase):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = Path(holder.name)
+        self.folder = setting.fresh_folder(self.addCleanup)
 
     def test_images_come_in_natural_order(self):
         for name in ("10.png", "9.png", "1.png", "notes.txt"):

@@ -3,6 +3,7 @@
 
 import importlib.util
 import sys
+import tempfile
 from pathlib import Path
 
 TOOLS = Path(__file__).resolve().parents[2] / "tools" / "export"
@@ -15,6 +16,13 @@ def require(*packages: str) -> None:
         if importlib.util.find_spec(package) is None:
             print(f"skipped: Python has no {package}")
             sys.exit(0)
+
+
+def fresh_folder(add_cleanup) -> Path:
+    """A new folder; `add_cleanup` is the addCleanup or addClassCleanup that removes it."""
+    holder = tempfile.TemporaryDirectory()
+    add_cleanup(holder.cleanup)
+    return Path(holder.name)
 
 
 require("numpy")

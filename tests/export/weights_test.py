@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Weight files: what fits a model, and what is refused by name."""
 
-import tempfile
 import unittest
-from pathlib import Path
 
 import setting
 
@@ -26,9 +24,7 @@ class Model(torch.nn.Module):
 
 class Weights(unittest.TestCase):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.path = Path(holder.name) / "w.safetensors"
+        self.path = setting.fresh_folder(self.addCleanup) / "w.safetensors"
         self.state = {f"{layer}.{name}": value.clone()
                       for layer, module in (("first", torch.nn.Linear(2, 2)),
                                             ("head", torch.nn.Linear(2, 1)))

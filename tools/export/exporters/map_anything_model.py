@@ -13,6 +13,7 @@ from uniception.models.encoders import ViTEncoderInput
 
 from exporters import weights
 from exporters.geometry import pinhole_of_points, quaternion_matrix
+from exporters.halves import halves
 from exporters.options import BuildOptions
 from exporters.patching import Patch, patched
 
@@ -41,31 +42,9 @@ def _contract(points: torch.Tensor, confidence: torch.Tensor, translation: torch
     return points[..., 2], confidence, pose, pinhole_of_points(points, confidence)
 
 
-class Encoder(torch.nn.Module):
-    """Images (1, V, 3, H, W) to features (1, V, N + 1, C)."""
-
-    def __init__(self, model: torch.nn.Module):
-        super().__init__()
-        self.model = model
-
-    def forward(self, images: torch.Tensor) -> torch.Tensor:
-        return _encode(self.model, images)
-
-
-class Decoder(torch.nn.Module):
-    """Features (1, V, N + 1, C) to the outputs of the contract."""
-
-    def __init__(self, model: torch.nn.Module, height: int, width: int):
-        super().__init__()
-        self.model = model
-        self.size = height, width
-
-    def forward(self, features: torch.Tensor) -> Tuple[torch.Tensor, ...]:
-        return _decode(self.model, features, self.size)
-
-
 def _encode(model: torch.nn.Module, images: torch.Tensor) -> torch.Tensor:
-    """Tokens of the patches of each view, then its class token."""
+    """Images (1, V, 3, H, W) to features (1, V, N + 1, C): tokens of the patches of each view, then
+    its class token."""
     norm = model.encoder.data_norm_type
     found = model.encoder(ViTEncoderInput(image=images[0], data_norm_type=norm))
     tokens = torch.cat([found.features.flatten(2), found.registers], dim=2)
@@ -116,8 +95,7 @@ def _all_views_at_once(self: Wrapper, images: torch.Tensor) -> Tuple[torch.Tenso
 
 
 def split(whole: Wrapper, options: BuildOptions) -> Tuple[torch.nn.Module, torch.nn.Module]:
-    return (Encoder(whole.model).eval(),
-            Decoder(whole.model, options.height, options.width).eval())
+    return halves(whole.model, options, _encode, _decode)
 
 
 def _local_encoder(repository: str, name: str, **unused: Any) -> torch.nn.Module:

@@ -8,6 +8,7 @@ import torch
 from contract.errors import BAD_USAGE, ExportError
 from exporters import attention_stub, rotary, weights
 from exporters.geometry import normalised_rows, pinhole_of_points
+from exporters.halves import halves
 from exporters.options import BuildOptions
 from exporters.patching import Patch
 
@@ -34,29 +35,17 @@ class Wrapper(torch.nn.Module):
         return _decode(self.model, features, positions, images.shape[-2:])
 
 
-class Encoder(torch.nn.Module):
+def _encode(model: torch.nn.Module, images: torch.Tensor) -> torch.Tensor:
     """One image (1, 1, 3, H, W) to features (1, 1, N, C)."""
-
-    def __init__(self, model: torch.nn.Module):
-        super().__init__()
-        self.model = model
-
-    def forward(self, images: torch.Tensor) -> torch.Tensor:
-        return self.model._encode_image(images[:, 0], None, normalize=False)[0].unsqueeze(1)
+    return model._encode_image(images[:, 0], None, normalize=False)[0].unsqueeze(1)
 
 
-class Decoder(torch.nn.Module):
+def _decode_features(model: torch.nn.Module, features: torch.Tensor,
+                     size: Tuple[int, int]) -> Tuple[torch.Tensor, ...]:
     """Features (1, 2, N, C) of two images to the outputs of the contract."""
-
-    def __init__(self, model: torch.nn.Module, height: int, width: int):
-        super().__init__()
-        self.model = model
-        self.size = height, width
-
-    def forward(self, features: torch.Tensor) -> Tuple[torch.Tensor, ...]:
-        rows, columns = (side // _PATCH for side in self.size)
-        positions = rotary.grid_positions(self, 1, rows, columns, features.device)
-        return _decode(self.model, features.unbind(dim=1), (positions, positions), self.size)
+    rows, columns = (side // _PATCH for side in size)
+    positions = rotary.grid_positions(model, 1, rows, columns, features.device)
+    return _decode(model, features.unbind(dim=1), (positions, positions), size)
 
 
 def _decode(model: torch.nn.Module, features: Sequence[torch.Tensor],
@@ -75,8 +64,7 @@ def _decode(model: torch.nn.Module, features: Sequence[torch.Tensor],
 
 
 def split(whole: Wrapper, options: BuildOptions) -> Tuple[torch.nn.Module, torch.nn.Module]:
-    return (Encoder(whole.model).eval(),
-            Decoder(whole.model, options.height, options.width).eval())
+    return halves(whole.model, options, _encode, _decode_features)
 
 
 def build(options: BuildOptions) -> torch.nn.Module:
