@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reader of .usg graphs: every record, and what is said about a broken one.
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/text_file.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/bench/solver/pose_graph.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/replay/sequence.h"
+#include "drivers/sequence/sequence.h"
 #include "tests/support/temp_folder.hpp"
 
 /// One answer of next_frame().

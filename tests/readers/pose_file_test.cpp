@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Pose files: formats told apart, times without loss, lines left out.
-#include "drivers/replay/pose_file.hpp"
+#include "drivers/sequence/pose_file.hpp"
 
-#include "drivers/replay/folder.hpp"
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/folder.hpp"
+#include "drivers/sequence/text_file.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temp_folder.hpp"
 

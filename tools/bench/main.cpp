@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/text_file.hpp"
 #include "tools/bench/depth/depth_command.hpp"
 #include "tools/bench/solver/covariance_command.hpp"
 #include "tools/bench/solver/solver_command.hpp"

@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "drivers/replay/pose_file.hpp"
+#include "drivers/sequence/pose_file.hpp"
 
 namespace unisim::eval {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/text_file.hpp"
 #include "drivers/source.h"
 
 namespace unisim::eval {

@@ -7,7 +7,7 @@
 #include "drivers/geometric/geometric.h"
 #include "drivers/onnx/onnx.h"
 #include "drivers/recorded/recorded.h"
-#include "drivers/replay/sequence.h"
+#include "drivers/sequence/sequence.h"
 #include "tools/replay/failure.hpp"
 #include "tools/replay/window_layout.hpp"
 

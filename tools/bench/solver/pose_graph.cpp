@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/text_file.hpp"
 
 namespace unisim::bench {
 

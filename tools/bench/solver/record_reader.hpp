@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/lie/sim3.hpp"
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/text_file.hpp"
 
 namespace unisim::bench {
 

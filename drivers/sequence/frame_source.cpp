@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Common part of the sources of this folder: the C table, frame range, time order, messages.
-#include "drivers/replay/frame_source.hpp"
+#include "drivers/sequence/frame_source.hpp"
 
 #include <cinttypes>
 #include <cstdio>

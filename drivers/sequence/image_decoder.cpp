@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Decodes image files one after the other into the same memory.
-#include "drivers/replay/image_decoder.hpp"
+#include "drivers/sequence/image_decoder.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -9,7 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string_view>
 
-#include "drivers/replay/folder.hpp"
+#include "drivers/sequence/folder.hpp"
 
 namespace unisim::sequence {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Opening of recorded sequences: recognises the format and hands over to its reader.
-#include "drivers/replay/sequence.h"
+#include "drivers/sequence/sequence.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -9,9 +9,9 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <string>
 
-#include "drivers/replay/folder.hpp"
-#include "drivers/replay/frame_source.hpp"
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/folder.hpp"
+#include "drivers/sequence/frame_source.hpp"
+#include "drivers/sequence/text_file.hpp"
 
 namespace unisim::sequence {
 namespace {

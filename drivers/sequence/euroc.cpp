@@ -3,9 +3,9 @@
 // state_groundtruth_estimate0.
 #include <algorithm>
 
-#include "drivers/replay/folder.hpp"
-#include "drivers/replay/recording.hpp"
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/folder.hpp"
+#include "drivers/sequence/recording.hpp"
+#include "drivers/sequence/text_file.hpp"
 
 namespace unisim::sequence {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reading of line-based text files with numbers, whatever the locale and the line ends.
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/text_file.hpp"
 
 #include <sys/stat.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // TUM RGB-D: rgb.txt or associations.txt beside the images, groundtruth.txt.
-#include "drivers/replay/folder.hpp"
-#include "drivers/replay/recording.hpp"
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/folder.hpp"
+#include "drivers/sequence/recording.hpp"
+#include "drivers/sequence/text_file.hpp"
 
 namespace unisim::sequence {
 namespace {

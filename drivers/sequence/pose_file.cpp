@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Files of camera poses: TUM, KITTI and EuRoC, one pose per line.
-#include "drivers/replay/pose_file.hpp"
+#include "drivers/sequence/pose_file.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/text_file.hpp"
 
 namespace unisim::sequence {
 namespace {

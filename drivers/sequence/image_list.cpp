@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A folder of images or a pattern of file names, in natural order at a constant rate.
-#include "drivers/replay/folder.hpp"
-#include "drivers/replay/recording.hpp"
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/folder.hpp"
+#include "drivers/sequence/recording.hpp"
+#include "drivers/sequence/text_file.hpp"
 
 namespace unisim::sequence {
 namespace {

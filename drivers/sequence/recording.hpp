@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/replay/pose_file.hpp"
+#include "drivers/sequence/pose_file.hpp"
 #include "drivers/source.h"
 
 namespace unisim::sequence {

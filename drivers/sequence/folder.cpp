@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Looking into folders: existence, listing, natural order, patterns.
-#include "drivers/replay/folder.hpp"
+#include "drivers/sequence/folder.hpp"
 
 #include <glob.h>
 #include <sys/stat.h>
@@ -9,7 +9,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/text_file.hpp"
 
 namespace unisim::sequence {
 namespace {

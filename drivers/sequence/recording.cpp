@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What a format's reader finds when it looks through a recorded sequence.
-#include "drivers/replay/recording.hpp"
+#include "drivers/sequence/recording.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/text_file.hpp"
 
 namespace unisim::sequence {
 

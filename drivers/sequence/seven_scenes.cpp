@@ -2,9 +2,9 @@
 // 7-Scenes: frame-NNNNNN.color.png or .jpg with frame-NNNNNN.pose.txt, 30 Hz by frame number.
 #include <charconv>
 
-#include "drivers/replay/folder.hpp"
-#include "drivers/replay/recording.hpp"
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/folder.hpp"
+#include "drivers/sequence/recording.hpp"
+#include "drivers/sequence/text_file.hpp"
 
 namespace unisim::sequence {
 namespace {

@@ -9,10 +9,10 @@
 #include <opencv2/videoio/registry.hpp>
 #include <utility>
 
-#include "drivers/replay/folder.hpp"
-#include "drivers/replay/frame_source.hpp"
-#include "drivers/replay/image_decoder.hpp"
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/folder.hpp"
+#include "drivers/sequence/frame_source.hpp"
+#include "drivers/sequence/image_decoder.hpp"
+#include "drivers/sequence/text_file.hpp"
 
 namespace unisim::sequence {
 namespace {

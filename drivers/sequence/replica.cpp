@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Replica as rendered for iMAP and NICE-SLAM: results/frame*.jpg, traj.txt with a 4x4 matrix per
 // line.
-#include "drivers/replay/folder.hpp"
-#include "drivers/replay/recording.hpp"
-#include "drivers/replay/text_file.hpp"
+#include "drivers/sequence/folder.hpp"
+#include "drivers/sequence/recording.hpp"
+#include "drivers/sequence/text_file.hpp"
 
 namespace unisim::sequence {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "drivers/replay/recording.hpp"
+#include "drivers/sequence/recording.hpp"
 #include "drivers/source.h"
 
 namespace unisim::sequence {

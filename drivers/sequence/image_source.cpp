@@ -2,8 +2,8 @@
 // Source over a list of image files.
 #include <utility>
 
-#include "drivers/replay/frame_source.hpp"
-#include "drivers/replay/image_decoder.hpp"
+#include "drivers/sequence/frame_source.hpp"
+#include "drivers/sequence/image_decoder.hpp"
 
 namespace unisim::sequence {
 namespace {
