@@ -27,6 +27,14 @@ function(unisim_target_freestanding target)
   target_compile_definitions(${target} PUBLIC EIGEN_DONT_VECTORIZE)
 endfunction()
 
+# unisim_install_program(TARGET): into the folder of programs. It finds libunisim beside that folder, wherever
+# the two are moved together: no folder of libraries outside the system's is searched by itself.
+function(unisim_install_program target)
+  file(RELATIVE_PATH to_libraries ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+  set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/${to_libraries}")
+  install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()
+
 # unisim_vectorised_sources(TARGET FILES...): compiles sources of TARGET once more for the wider vectors
 # of x86-64, in the namespace `avx2` (core/base/isa.hpp). Which copy runs is decided at run time.
 function(unisim_vectorised_sources target)

@@ -8,6 +8,7 @@
 
 #include "tools/replay/failure.hpp"
 #include "tools/replay/settings.hpp"
+#include "tools/replay/version.hpp"
 
 namespace {
 
@@ -44,14 +45,15 @@ int fail(int code, const char* line) {
 int main(int argc, char** argv) {
   std::string file;
   CLI::App app("Print the exact bytes a session needs, by part.");
+  app.set_version_flag("--version", unisim::replay::version_text());
   app.add_option("--config", file, "TOML file as of unisim-replay --config; its [session] counts");
   try {
     app.parse(argc, argv);
     unisim::replay::Settings settings = unisim::replay::default_settings();
     if (!file.empty()) unisim::replay::load_settings(file, &settings);
     print(settings.session);
-  } catch (const CLI::CallForHelp&) {
-    std::printf("%s", app.help().c_str());
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
   } catch (const CLI::ParseError& error) {
     return fail(unisim::replay::kExitUsage, error.what());
   } catch (const Failure& failure) {

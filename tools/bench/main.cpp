@@ -13,6 +13,7 @@
 #include "tools/bench/solver/update_command.hpp"
 #include "tools/bench/walk/walk_command.hpp"
 #include "tools/replay/failure.hpp"
+#include "tools/replay/version.hpp"
 
 namespace {
 
@@ -107,6 +108,7 @@ void add_depth(CLI::App* app, DepthSettings* settings) {
 
 int main(int argc, char** argv) {
   CLI::App app("Times and memory of libunisim; times are CPU time of the process.");
+  app.set_version_flag("--version", unisim::replay::version_text());
   app.require_subcommand(1);
   SolverSettings solver;
   add_solver(&app, &solver);
@@ -126,9 +128,8 @@ int main(int argc, char** argv) {
     if (app.got_subcommand("covariance")) return covariance_command(covariance);
     if (app.got_subcommand("depth")) return depth_command(depth);
     return solver_command(solver);
-  } catch (const CLI::CallForHelp&) {
-    std::printf("%s", app.help().c_str());
-    return unisim::replay::kExitDone;
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
   } catch (const CLI::ParseError& error) {
     return fail(unisim::replay::kExitUsage, error.what());
   } catch (const unisim::sequence::InputError& error) {

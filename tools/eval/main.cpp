@@ -147,6 +147,7 @@ void add_commands(CLI::App* app, Arguments* arguments) {
 int run(int argc, char** argv) {
   Arguments arguments;
   CLI::App app("Errors of a trajectory or a cloud against ground truth");
+  app.set_version_flag("--version", UNISIM_EVAL_VERSION);
   add_commands(&app, &arguments);
   try {
     app.parse(argc, argv);
