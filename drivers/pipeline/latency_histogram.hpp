@@ -53,7 +53,8 @@ struct StageTimes {
   LatencyHistogram multi_view;   ///< predictor answers one window
   LatencyHistogram depth_ratio;  ///< session takes a pair or a window: mostly its depth ratios
   LatencyHistogram descriptor;   ///< global descriptors; none while loops are not closed
-  LatencyHistogram graph;        ///< session takes a keyframe or a revision
+  LatencyHistogram graph;        ///< session takes a keyframe, a revision or a refusal
+  LatencyHistogram read;         ///< session says what it wants, where it stands, a pose
   LatencyHistogram optimize;     ///< one unisim_optimize()
   LatencyHistogram track_total;  ///< keyframe: image at hand to live pose given out
 };

@@ -27,15 +27,7 @@ Step MapBuilder::session_failed(const char* call, unisim_status status) {
 }
 
 Step MapBuilder::add_keyframe(const unisim_frame& frame, int32_t* id) {
-  unisim_keyframe keyframe{};
-  keyframe.struct_size = sizeof keyframe;
-  keyframe.timestamp_ns = frame.timestamp_ns;
-  unisim_status status = UNISIM_OK;
-  {
-    const ScopedLatency timer(parts_.times->graph);
-    const InsideLibrary inside(*parts_.heap_watch);
-    status = unisim_add_keyframe(parts_.session, &keyframe, id);
-  }
+  const unisim_status status = parts_.session->add_keyframe(frame.timestamp_ns, id);
   if (status != UNISIM_OK) return session_failed("unisim_add_keyframe", status);
   const ScopedLatency timer(parts_.times->keyframe);
   const int answer = parts_.predictor->keyframe(parts_.predictor, &frame, *id);
@@ -43,19 +35,12 @@ Step MapBuilder::add_keyframe(const unisim_frame& frame, int32_t* id) {
 }
 
 bool MapBuilder::next_request(uint32_t kind, unisim_request* request) {
-  *request = {};
-  request->struct_size = sizeof *request;
-  const InsideLibrary inside(*parts_.heap_watch);
-  return unisim_next_request(parts_.session, kind, request) == UNISIM_OK;
+  return parts_.session->next_request(kind, request) == UNISIM_OK;
 }
 
 Step MapBuilder::reject(const unisim_request& request, MessageKind kind, const std::string& why) {
   parts_.messages->say(kind, request_name(request) + ": " + why);
-  unisim_status status = UNISIM_OK;
-  {
-    const InsideLibrary inside(*parts_.heap_watch);
-    status = unisim_reject_request(parts_.session, &request);
-  }
+  const unisim_status status = parts_.session->reject(request);
   if (status != UNISIM_OK) return session_failed("unisim_reject_request", status);
   if (request.kind == UNISIM_REQUEST_PAIR) last_settled_ = request.keyframe_ids[1];
   return Step::kOk;
@@ -85,25 +70,13 @@ Step MapBuilder::serve_pair(const unisim_request& request, bool* pending) {
   if (answer != UNISIM_PREDICTION_OK) {
     return reject(request, MessageKind::kPairRejected, predictor_message());
   }
-  unisim_two_view two_view{};
-  two_view.struct_size = sizeof two_view;
-  two_view.i = request.keyframe_ids[0];
-  two_view.j = request.keyframe_ids[1];
-  two_view.T_i_j = prediction.T_i_j;
-  two_view.depth_i = prediction.depth_i;
-  two_view.depth_j = prediction.depth_j;
-  two_view.center_sigma = prediction.center_sigma;
-  unisim_status status = UNISIM_OK;
-  {
-    const ScopedLatency timer(parts_.times->depth_ratio);
-    const InsideLibrary inside(*parts_.heap_watch);
-    status = unisim_add_two_view(parts_.session, &two_view);
-  }
+  const int32_t j = request.keyframe_ids[1];
+  const unisim_status status = parts_.session->add_two_view(request.keyframe_ids[0], j, prediction);
   if (status == UNISIM_ERR_INVALID_ARGUMENT) {
     return reject(request, MessageKind::kInvalid, "prediction is not finite or has a wrong size");
   }
   if (status != UNISIM_OK) return session_failed("unisim_add_two_view", status);
-  last_settled_ = two_view.j;
+  last_settled_ = j;
   return Step::kOk;
 }
 
@@ -142,20 +115,8 @@ Step MapBuilder::serve_window(const unisim_request& request, bool* pending) {
 
 Step MapBuilder::take_window(const unisim_request& request, const unisim_window_prediction& window,
                              bool* pending) {
-  unisim_submap submap{};
-  submap.struct_size = sizeof submap;
-  submap.count = window.count;
-  submap.keyframe_ids = window.keyframe_ids;
-  submap.T_submap_kf = window.T_window_kf;
-  submap.depth = window.depth;
-  submap.center_sigma = window.center_sigma;
   int32_t submap_id = -1;
-  unisim_status status = UNISIM_OK;
-  {
-    const ScopedLatency timer(parts_.times->depth_ratio);
-    const InsideLibrary inside(*parts_.heap_watch);
-    status = unisim_add_submap(parts_.session, &submap, &submap_id);
-  }
+  const unisim_status status = parts_.session->add_submap(window, &submap_id);
   *pending = status == UNISIM_ERR_NOT_READY;
   if (*pending) return Step::kOk;
   if (status == UNISIM_ERR_INVALID_ARGUMENT) {
@@ -187,19 +148,7 @@ void MapBuilder::take_revision(const unisim_window_revision& revision) {
   const auto same = [&](const TokenOfSubmap& entry) { return entry.token == revision.token; };
   const auto found = std::find_if(tokens_.rbegin(), tokens_.rend(), same);
   if (found == tokens_.rend()) return;
-  unisim_submap_update update{};
-  update.struct_size = sizeof update;
-  update.submap_id = found->submap_id;
-  update.count = revision.count;
-  update.T_submap_kf = revision.T_window_kf;
-  update.log_depth_ratio = revision.log_depth_ratio;
-  update.center_sigma = revision.center_sigma;
-  unisim_status status = UNISIM_OK;
-  {
-    const ScopedLatency timer(parts_.times->graph);
-    const InsideLibrary inside(*parts_.heap_watch);
-    status = unisim_update_submap(parts_.session, &update);
-  }
+  const unisim_status status = parts_.session->update_submap(found->submap_id, revision);
   if (status != UNISIM_OK) {
     parts_.messages->say(MessageKind::kInvalid, "revision of submap " +
                                                     std::to_string(found->submap_id) + ": " +
@@ -223,27 +172,16 @@ Step MapBuilder::close() {
   if (step == Step::kOk) step = serve_windows();
   if (step == Step::kOk) step = serve_revisions();
   if (step != Step::kOk) return step;
-  unisim_status status = UNISIM_OK;
-  {
-    const InsideLibrary inside(*parts_.heap_watch);
-    status = unisim_close_window(parts_.session);
-  }
-  if (status == UNISIM_OK) step = serve_windows();
+  if (parts_.session->close_window() == UNISIM_OK) step = serve_windows();
   constexpr int kFinalCalls = 5;
   return step == Step::kOk ? optimize(kFinalCalls) : step;
 }
 
 Step MapBuilder::optimize(int max_calls) {
   unisim_report report{};
-  report.struct_size = sizeof report;
   report.stop = UNISIM_STOP_BUDGET;
   for (int call = 0; call < max_calls && report.stop == UNISIM_STOP_BUDGET; ++call) {
-    unisim_status status = UNISIM_OK;
-    {
-      const ScopedLatency timer(parts_.times->optimize);
-      const InsideLibrary inside(*parts_.heap_watch);
-      status = unisim_optimize(parts_.session, nullptr, &report);
-    }
+    const unisim_status status = parts_.session->optimize(&report);
     if (status == UNISIM_ERR_NOT_READY) return Step::kOk;
     if (status == UNISIM_ERR_NUMERICAL) {
       parts_.messages->say(MessageKind::kSolver, "optimisation stopped at node " +

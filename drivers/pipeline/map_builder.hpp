@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "drivers/pipeline/heap_watch.hpp"
 #include "drivers/pipeline/latency_histogram.hpp"
 #include "drivers/pipeline/listener.hpp"
 #include "drivers/pipeline/messages.hpp"
+#include "drivers/pipeline/session_client.hpp"
 #include "drivers/predictor.h"
 #include "unisim/unisim.h"
 
@@ -27,11 +27,10 @@ enum class Step {
 class MapBuilder {
  public:
   struct Parts {
-    unisim_session* session;
+    SessionClient* session;
     unisim_predictor* predictor;
     StageTimes* times;
     Messages* messages;
-    const HeapWatch* heap_watch;
     const std::vector<Listener*>* listeners;
   };
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <new>
 #include <utility>
 
 #include "drivers/pipeline/frame_reader.hpp"
@@ -27,14 +26,13 @@ class Pipeline::Impl {
         listeners_(std::move(listeners)),
         stop_(stop),
         heap_watch_(heap_watch),
+        session_(&result_.times, &heap_watch_),
         messages_(listeners_),
         selector_(options.keyframes) {}
 
-  ~Impl() { unisim_session_destroy(session_); }
-
   Preparation prepare();
   const Result& run();
-  unisim_session* session() const { return session_; }
+  unisim_session* session() const { return session_.handle(); }
 
  private:
   void read_all();
@@ -55,45 +53,29 @@ class Pipeline::Impl {
   std::vector<Listener*> listeners_;
   const std::atomic<bool>* stop_;
   HeapWatch heap_watch_;
-  std::unique_ptr<char[]> arena_;
-  unisim_session* session_ = nullptr;
+  Result result_;
+  SessionClient session_;
   std::unique_ptr<MapBuilder> builder_;
   Messages messages_;
   KeyframeSelector selector_;
   Pacer pacer_;
-  Result result_;
   int32_t next_live_ = 0;  // first keyframe whose live pose is not given out yet
 };
 
 Preparation Pipeline::Impl::prepare() {
-  size_t size = 0;
-  unisim_status status = unisim_arena_size(&config_, &size);
-  if (status != UNISIM_OK) {
-    return {Preparation::Answer::kBadConfiguration,
-            std::string("session configuration: ") + unisim_status_string(status)};
-  }
-  arena_.reset(new (std::nothrow) char[size]);
-  if (arena_ == nullptr) {
-    return {Preparation::Answer::kNoMemory, "session: no memory for its " +
-                                                std::to_string(size >> 20) +
-                                                " MiB; lower session.max_keyframes"};
-  }
-  status = unisim_session_create(&session_, &config_, arena_.get(), size);
-  if (status != UNISIM_OK) {
-    return {Preparation::Answer::kBadConfiguration,
-            std::string("session: ") + unisim_status_string(status)};
-  }
+  Preparation preparation = session_.create(config_);
+  if (preparation.answer != Preparation::Answer::kReady) return preparation;
   // Windows start w - overlap keyframes apart; one shorter window may follow.
   const int32_t step = config_.window_size - config_.window_overlap;
   const int32_t windows = config_.max_keyframes / step + 2;
-  builder_ = std::make_unique<MapBuilder>(MapBuilder::Parts{session_, predictor_, &result_.times,
-                                                            &messages_, &heap_watch_, &listeners_},
-                                          static_cast<size_t>(windows));
-  return {};
+  builder_ = std::make_unique<MapBuilder>(
+      MapBuilder::Parts{&session_, predictor_, &result_.times, &messages_, &listeners_},
+      static_cast<size_t>(windows));
+  return preparation;
 }
 
 const Result& Pipeline::Impl::run() {
-  if (session_ == nullptr) {
+  if (session_.handle() == nullptr) {
     const Preparation preparation = prepare();
     if (preparation.answer != Preparation::Answer::kReady) {
       end(Outcome::kSessionFailed, preparation.message);
@@ -101,13 +83,13 @@ const Result& Pipeline::Impl::run() {
     }
   }
   const auto start = std::chrono::steady_clock::now();
-  const int64_t heap_calls = heap_watch_.count != nullptr ? heap_watch_.count() : 0;
+  const int64_t heap_calls = heap_watch_.calls();
   result_.progress.frames_total = source_->frame_count(source_);
   read_all();
   finish();
   messages_.tell_counts();
   predictor_->info(predictor_, &result_.predictor);
-  if (heap_watch_.count != nullptr) result_.heap_calls = heap_watch_.count() - heap_calls;
+  if (heap_watch_.count != nullptr) result_.heap_calls = heap_watch_.calls() - heap_calls;
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   result_.wall_s = wall.count();
   return result_;
@@ -187,9 +169,8 @@ void Pipeline::Impl::record_live() {
   if (builder_->last_settled() == 0) return;
   for (; next_live_ <= builder_->last_settled(); ++next_live_) {
     unisim_pose pose{};
-    pose.struct_size = sizeof pose;
     // A held pose (confidence 0) is the old one repeated, not a pose of this keyframe.
-    if (unisim_get_pose(session_, next_live_, &pose) != UNISIM_OK || pose.confidence == 0) continue;
+    if (session_.get_pose(next_live_, &pose) != UNISIM_OK || pose.confidence == 0) continue;
     result_.live.push_back({pose.timestamp_ns, pose.T_world_kf, next_live_});
   }
 }
@@ -199,9 +180,8 @@ void Pipeline::Impl::pose_between(const unisim_frame& frame) {
   unisim_frame_pose between{};
   if (predictor_->frame_pose(predictor_, &between) != UNISIM_PREDICTION_OK) return;
   unisim_pose pose{};
-  pose.struct_size = sizeof pose;
   const int32_t keyframe = between.keyframe_id;
-  if (unisim_get_pose(session_, keyframe, &pose) != UNISIM_OK || pose.confidence == 0) return;
+  if (session_.get_pose(keyframe, &pose) != UNISIM_OK || pose.confidence == 0) return;
   result_.between.push_back({frame.timestamp_ns, keyframe, between.T_kf_frame});
   result_.live.push_back({frame.timestamp_ns, compose(pose.T_world_kf, between.T_kf_frame), -1});
 }
@@ -245,8 +225,7 @@ void Pipeline::Impl::end(Outcome outcome, const std::string& message) {
 
 void Pipeline::Impl::tell_progress() {
   unisim_session_info info{};
-  info.struct_size = sizeof info;
-  if (unisim_get_info(session_, &info) == UNISIM_OK) {
+  if (session_.get_info(&info) == UNISIM_OK) {
     result_.progress.state = info.state;
     result_.progress.submaps = info.submaps;
   }

@@ -12,6 +12,7 @@
 #include "drivers/pipeline/keyframe_selector.hpp"
 #include "drivers/pipeline/latency_histogram.hpp"
 #include "drivers/pipeline/listener.hpp"
+#include "drivers/pipeline/session_client.hpp"
 #include "drivers/predictor.h"
 #include "drivers/source.h"
 #include "unisim/unisim.h"
@@ -61,13 +62,6 @@ struct Result {
   unisim_predictor_info predictor{};
   int64_t heap_calls = -1;  ///< inside the library after create, -1: not counted
   double wall_s = 0.0;
-};
-
-/// Whether a run can begin.
-struct Preparation {
-  enum class Answer { kReady, kBadConfiguration, kNoMemory };
-  Answer answer = Answer::kReady;
-  std::string message;  ///< one line unless kReady
 };
 
 /// One run. Everything it holds is bounded by its options, but for the poses in the result.

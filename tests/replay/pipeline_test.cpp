@@ -324,6 +324,39 @@ TEST_CASE("a realtime run drops the frames it is late for") {
   CHECK(result.wall_s > 0.9);
 }
 
+TEST_CASE("every call of the session is timed and watched for heap calls") {
+  static int64_t entered;
+  static bool inside;
+  static bool nested;
+  entered = 0;
+  inside = nested = false;
+  HeapWatch watch;
+  watch.enter = [] {
+    nested = nested || inside;
+    inside = true;
+    ++entered;
+  };
+  watch.leave = [] { inside = false; };
+  watch.count = [] { return int64_t{0}; };
+  Run run;
+  run.options.every_frame = true;
+  run.predictor.revises = true;
+  run.predictor.rejected_pairs = {11};
+  Pipeline pipeline(run.options, run.source.table(), run.predictor.table(), run.config, {}, nullptr,
+                    watch);
+  const StageTimes& times = pipeline.run().times;
+  int64_t timed = 0;
+  for (const LatencyHistogram* stage :
+       {&times.graph, &times.depth_ratio, &times.optimize, &times.read}) {
+    timed += stage->count();
+  }
+  // 160 frames between keyframes are placed by a pose that is read from the session.
+  CHECK(times.read.count() > 160);
+  CHECK(entered == timed);
+  CHECK_FALSE(inside);
+  CHECK_FALSE(nested);
+}
+
 TEST_CASE("capacity follows from the length of the sequence") {
   KeyframeConfig keyframes;
   keyframes.stride = 5;

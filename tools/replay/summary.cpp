@@ -110,11 +110,17 @@ std::string keyframe_choice(const Options& options) {
 
 std::vector<std::pair<std::string, const pipeline::LatencyHistogram*>> stages(
     const pipeline::StageTimes& times) {
-  return {{"decode", &times.decode},         {"observe", &times.observe},
-          {"keyframe", &times.keyframe},     {"two_view", &times.two_view},
-          {"multi_view", &times.multi_view}, {"depth_ratio", &times.depth_ratio},
-          {"descriptor", &times.descriptor}, {"graph", &times.graph},
-          {"optimize", &times.optimize},     {"track_total", &times.track_total}};
+  return {{"decode", &times.decode},
+          {"observe", &times.observe},
+          {"keyframe", &times.keyframe},
+          {"two_view", &times.two_view},
+          {"multi_view", &times.multi_view},
+          {"depth_ratio", &times.depth_ratio},
+          {"descriptor", &times.descriptor},
+          {"graph", &times.graph},
+          {"read", &times.read},
+          {"optimize", &times.optimize},
+          {"track_total", &times.track_total}};
 }
 
 int64_t process_peak_bytes() {
