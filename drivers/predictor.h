@@ -106,6 +106,13 @@ struct unisim_predictor {
   /** Next window measured anew since the last call; optional. Ask until it says PENDING. */
   int (*next_revision)(unisim_predictor* predictor, unisim_window_revision* out);
 
+  /** Next wide window: keyframes spread over all that the predictor holds, measured together after
+   * it has adjusted them all anew. No answer to a request: it ties together what windows of
+   * neighbours cannot, and is taken as a loop is. Optional. Ask until it says PENDING.
+   * @param max_views views to give at most */
+  int (*next_wide_window)(unisim_predictor* predictor, int32_t max_views,
+                          unisim_window_prediction* out);
+
   /** Pose of the frame observed last; optional. @return UNISIM_PREDICTION_* */
   int (*frame_pose)(unisim_predictor* predictor, unisim_frame_pose* out);
 

@@ -9,12 +9,14 @@ namespace unisim::geometric {
 namespace {
 constexpr double kTolerance = 1e-4;
 constexpr size_t kMinRatios = 5;
+constexpr size_t kSpreadViews = 16;  // of a wide window
 }  // namespace
 
 BackgroundAdjustment::BackgroundAdjustment(const BundleCapacity& capacity, const MapCapacity& map,
                                            bool threaded)
     : adjustment_(capacity, map), adjusted_(static_cast<size_t>(map.landmarks), 0) {
   keyframes_.reserve(static_cast<size_t>(map.keyframes));
+  spread_.reserve(kSpreadViews);
   ratios_.reserve(static_cast<size_t>(map.observations_per_keyframe));
   if (threaded) thread_ = std::thread([this] { loop(); });
 }
@@ -35,6 +37,7 @@ void BackgroundAdjustment::start(const State& state, int32_t keyframe, int itera
     const Keyframe& from = state.map.keyframe(k);
     if (from.posed && from.segment == state.segment) keyframes_.push_back(k);
   }
+  choose_spread();
   adjustment_.build(state, keyframes_.data(), keyframes_.size());
   segment_ = state.segment;
   started_at_ = keyframe;
@@ -51,13 +54,23 @@ void BackgroundAdjustment::start(const State& state, int32_t keyframe, int itera
   changed_.notify_all();
 }
 
+void BackgroundAdjustment::choose_spread() {
+  spread_.clear();
+  const size_t last = keyframes_.size() - 1;
+  const size_t views = std::min(kSpreadViews, keyframes_.size());
+  for (size_t i = 0; i < views && views > 1; ++i) {
+    spread_.push_back(keyframes_[(i * last + (views - 1) / 2) / (views - 1)]);
+  }
+}
+
 void BackgroundAdjustment::work() {
   const BundleResult result = adjustment_.solve(iterations_, kTolerance);
   usable_ = result.status == BundleStatus::kConverged ||
             result.status == BundleStatus::kIterationCap ||
             result.status == BundleStatus::kNoDescent;
-  const BundlePrecision precision = adjustment_.precision(keyframes_.data(), keyframes_.size());
+  const BundlePrecision precision = adjustment_.precision(spread_.data(), spread_.size());
   log_focal_sigma_ = precision.valid ? precision.log_focal_sigma : 0;
+  spread_sigma_ = precision.valid ? precision.center_sigma : 0;
 }
 
 void BackgroundAdjustment::loop() {

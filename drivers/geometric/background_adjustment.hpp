@@ -28,6 +28,11 @@ class BackgroundAdjustment {
     return started_at_ + std::max(latency, static_cast<int32_t>(keyframes_.size()) / 12);
   }
 
+  /// Keyframes of the adjustment merged last, spread evenly over all of them.
+  const std::vector<int32_t>& spread() const { return spread_; }
+  /// Precision of their centres, that of the intrinsics included; 0 when not known.
+  double spread_sigma() const { return spread_sigma_; }
+
   /// Copies the segment's posed keyframes and begins.
   void start(const State& state, int32_t keyframe, int iterations);
   /// Waits for the result and takes it into the state; what was added meanwhile moves along.
@@ -43,6 +48,7 @@ class BackgroundAdjustment {
     Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
     Eigen::Vector3d t = Eigen::Vector3d::Zero();
   };
+  void choose_spread();
   void work();
   void loop();
   void wait();
@@ -52,6 +58,7 @@ class BackgroundAdjustment {
 
   MapAdjustment adjustment_;
   std::vector<int32_t> keyframes_;
+  std::vector<int32_t> spread_;
   std::vector<double> ratios_;
   std::vector<uint8_t> adjusted_;  // by landmark: is in the problem
   int32_t segment_ = 0;
@@ -59,6 +66,7 @@ class BackgroundAdjustment {
   int iterations_ = 0;
   bool usable_ = false;
   double log_focal_sigma_ = 0;
+  double spread_sigma_ = 0;
   bool pending_ = false;
 
   std::mutex mutex_;

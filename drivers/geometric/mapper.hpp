@@ -38,6 +38,10 @@ class Mapper {
   /// Precision of a window cut from the present state; 0 when not known.
   double window_sigma(const int32_t* ids, size_t count);
 
+  /// Keyframes spread over the last adjustment of the whole state, and their precision.
+  const std::vector<int32_t>& spread() const { return background_.spread(); }
+  double spread_sigma() const { return background_.spread_sigma(); }
+
   const State& state() const { return state_; }
   const MapperCounts& counts() const { return counts_; }
   StartOutcome start_outcome() const { return start_outcome_; }

@@ -11,6 +11,7 @@ namespace {
 // A pair is measured before later keyframes have improved it, and its window will say the same
 // thing better: it is held loosely.
 constexpr double kPairSigma = 0.003;
+constexpr size_t kLeastWideViews = 3;
 
 bool finite(const unisim_sim3& pose) {
   double sum = 0;
@@ -127,21 +128,43 @@ int Predictions::window(Mapper* mapper, const int32_t* ids, int32_t count,
     *why = "geometric: fewer than two of the window's keyframes have a pose";
     return UNISIM_PREDICTION_REJECTED;
   }
+  cut_views(state, out);
+  out->center_sigma = ids_.size() >= 3 ? mapper->window_sigma(ids_.data(), ids_.size()) : 0;
+  out->token = windows_.give(state, ids_.data(), ids_.size(), out->center_sigma);
+  return UNISIM_PREDICTION_OK;
+}
+
+/// The chosen views as they are in the state now.
+void Predictions::cut_views(const State& state, unisim_window_prediction* out) {
   poses_.clear();
   depths_.clear();
   for (const int32_t id : ids_) {
     poses_.push_back(to_sim3(state.map.keyframe(id).pose));
     depths_.push_back(fill(state, id, depths_.size(), &window_maps_));
   }
-  const double sigma = ids_.size() >= 3 ? mapper->window_sigma(ids_.data(), ids_.size()) : 0;
+  *out = {};
   out->count = static_cast<int32_t>(ids_.size());
   out->keyframe_ids = ids_.data();
   out->T_window_kf = poses_.data();
   out->depth = depths_.data();
   out->focal_px = state.intrinsics.camera.focal_px;
-  out->center_sigma = sigma;
-  out->remark = nullptr;
-  out->token = windows_.give(state, ids_.data(), ids_.size(), sigma);
+}
+
+int Predictions::wide_window(const Mapper& mapper, int32_t max_views,
+                             unisim_window_prediction* out) {
+  const bool due = wide_is_due_;
+  wide_is_due_ = false;
+  const std::vector<int32_t>& spread = mapper.spread();
+  if (!due || spread.empty() || !(mapper.spread_sigma() > 0)) return UNISIM_PREDICTION_PENDING;
+  const size_t step = (spread.size() - 1) / static_cast<size_t>(std::max(max_views, 1)) + 1;
+  ids_.clear();
+  for (size_t i = 0; i < spread.size(); i += step) ids_.push_back(spread[i]);
+  const std::vector<int32_t> wanted = ids_;
+  choose_views(mapper.state(), wanted.data(), static_cast<int32_t>(wanted.size()));
+  if (ids_.size() < kLeastWideViews) return UNISIM_PREDICTION_PENDING;
+  cut_views(mapper.state(), out);
+  out->center_sigma = mapper.spread_sigma();
+  out->token = -1;
   return UNISIM_PREDICTION_OK;
 }
 

@@ -21,8 +21,13 @@ class Predictions {
   int window(Mapper* mapper, const int32_t* ids, int32_t count, unisim_window_prediction* out,
              const char** why);
   int revision(const Mapper& mapper, unisim_window_revision* out);
-  /// Says that the whole state was adjusted: every window may be due for a revision.
-  void state_adjusted() { windows_.look_again_at_all(); }
+  int wide_window(const Mapper& mapper, int32_t max_views, unisim_window_prediction* out);
+  /// Says that the whole state was adjusted: every window may be due for a revision, and a wide
+  /// window is.
+  void state_adjusted() {
+    windows_.look_again_at_all();
+    wide_is_due_ = true;
+  }
   /// Says that a keyframe was added, which moves the newest windows a little.
   void state_grew() { windows_.look_again_at_newest(); }
   int64_t bytes() const;
@@ -35,6 +40,7 @@ class Predictions {
   };
   unisim_depth_map fill(const State& state, int32_t keyframe, size_t view, Maps* maps);
   void choose_views(const State& state, const int32_t* ids, int32_t count);
+  void cut_views(const State& state, unisim_window_prediction* out);
 
   cv::Size grid_size_;
   DepthGrid grid_;
@@ -45,6 +51,7 @@ class Predictions {
   std::vector<unisim_sim3> poses_;
   WindowCut windows_;
   WindowRevision revision_;
+  bool wide_is_due_ = false;
 };
 
 }  // namespace unisim::geometric

@@ -136,6 +136,14 @@ int next_revision(unisim_predictor* predictor, unisim_window_revision* out) {
   });
 }
 
+int next_wide_window(unisim_predictor* predictor, int32_t max_views,
+                     unisim_window_prediction* out) {
+  return guarded(predictor, [&](GeometricPredictor* me) {
+    if (!me->mapper) return UNISIM_PREDICTION_PENDING;
+    return me->predictions->wide_window(*me->mapper, max_views, out);
+  });
+}
+
 int frame_pose(unisim_predictor* predictor, unisim_frame_pose* out) {
   return guarded(predictor, [&](GeometricPredictor* me) {
     if (!me->mapper || !me->mapper->state().initialised) return UNISIM_PREDICTION_PENDING;
@@ -191,12 +199,20 @@ unisim_predictor* unisim_geometric_create(const unisim_geometric_config* config,
     auto made = std::make_unique<g::GeometricPredictor>();
     problem = g::read_config(config, &made->config);
     if (problem.empty()) {
-      made->table = {"geometric",      1,
-                     g::observe,       g::keyframe,
-                     g::two_view,      g::multi_view,
-                     g::next_revision, g::frame_pose,
-                     g::finish,        g::info,
-                     g::message,       g::destroy};
+      unisim_predictor& table = made->table;
+      table.name = "geometric";
+      table.needs_images = 1;
+      table.observe = g::observe;
+      table.keyframe = g::keyframe;
+      table.two_view = g::two_view;
+      table.multi_view = g::multi_view;
+      table.next_revision = g::next_revision;
+      table.next_wide_window = g::next_wide_window;
+      table.frame_pose = g::frame_pose;
+      table.finish = g::finish;
+      table.info = g::info;
+      table.message = g::message;
+      table.destroy = g::destroy;
       return &made.release()->table;
     }
   } catch (const std::exception& error) {

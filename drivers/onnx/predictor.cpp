@@ -206,8 +206,16 @@ unisim_predictor* unisim_onnx_create(const unisim_onnx_config* config, int32_t* 
     made->config = o::read_config(*config);
     made->models = o::load_models(made->config);
     made->refused_pairs = std::make_unique<o::RefusedPairs>(made->models.window_views->capacity());
-    made->table = {"onnx",  1,       o::observe, o::keyframe, o::two_view, o::multi_view,
-                   nullptr, nullptr, nullptr,    o::info,     o::message,  o::destroy};
+    unisim_predictor& table = made->table;
+    table.name = "onnx";
+    table.needs_images = 1;
+    table.observe = o::observe;
+    table.keyframe = o::keyframe;
+    table.two_view = o::two_view;
+    table.multi_view = o::multi_view;
+    table.info = o::info;
+    table.message = o::message;
+    table.destroy = o::destroy;
     return &made.release()->table;
   });
 }

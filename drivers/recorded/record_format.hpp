@@ -29,7 +29,8 @@ enum class Kind : std::uint32_t {
   kRevision = 5,
   kFramePose = 6,
   kInfo = 7,
-  kEnd = 8
+  kEnd = 8,
+  kWideWindow = 9
 };
 
 /// Start of the file; three texts (u32 length, bytes: creator, sequence, predictor), zeros to a
@@ -96,6 +97,10 @@ struct RevisionKey {
   std::int64_t token;
 };
 
+struct WideWindowKey {
+  Moment moment;
+};
+
 struct FramePoseKey {
   Moment moment;
   std::int32_t status;
@@ -152,7 +157,8 @@ struct DepthHead {
 static_assert(sizeof(FileHead) == 32 && sizeof(RecordHead) == kHeadBytes);
 static_assert(sizeof(Moment) == 16 && sizeof(FrameKey) == 40 && sizeof(KeyframeKey) == 24);
 static_assert(sizeof(PairKey) == 32 && sizeof(WindowKey) == 24 && sizeof(RevisionKey) == 24);
-static_assert(sizeof(FramePoseKey) == 24 && sizeof(InfoKey) == 48 && sizeof(EndKey) == 8);
+static_assert(sizeof(WideWindowKey) == 16 && sizeof(FramePoseKey) == 24 && sizeof(InfoKey) == 48 &&
+              sizeof(EndKey) == 8);
 static_assert(sizeof(unisim_sim3) == 64 && sizeof(PairData) == 80 && sizeof(WindowData) == 32);
 static_assert(sizeof(RevisionData) == 16 && sizeof(DepthHead) == 16);
 

@@ -67,6 +67,8 @@ const char* RecordIndex::add(const RecordRef& record, const AlignedBytes& key) {
       return add_window(record, key);
     case Kind::kRevision:
       return add_revision(record, key);
+    case Kind::kWideWindow:
+      return add_wide_window(record, key);
     case Kind::kFramePose:
       return add_frame_pose(record, key);
     case Kind::kInfo:
@@ -139,6 +141,13 @@ const char* RecordIndex::add_revision(const RecordRef& record, const AlignedByte
   return nullptr;
 }
 
+const char* RecordIndex::add_wide_window(const RecordRef& record, const AlignedBytes& key) {
+  WideWindowKey window{};
+  if (!read_key(record, key, &window)) return kShort;
+  wide_windows_.push_back({window.moment, record});
+  return nullptr;
+}
+
 const char* RecordIndex::add_frame_pose(const RecordRef& record, const AlignedBytes& key) {
   FramePoseKey pose{};
   if (!read_key(record, key, &pose)) return kShort;
@@ -183,7 +192,8 @@ RecordedAnswers* RecordIndex::find_answers(const Question& question) {
 
 std::size_t RecordIndex::bytes() const {
   std::size_t bytes = (frames_.capacity() + keyframes_.capacity()) * sizeof(RecordedFrame) +
-                      revisions_.capacity() * sizeof(RecordedRevision);
+                      revisions_.capacity() * sizeof(RecordedRevision) +
+                      wide_windows_.capacity() * sizeof(RecordedWideWindow);
   for (const auto& [question, answers] : answers_) {
     bytes += sizeof(Question) + question.capacity() * sizeof(std::int64_t) +
              sizeof(RecordedAnswers) + answers.capacity() * sizeof(RecordedAnswer);

@@ -48,6 +48,11 @@ struct RecordedRevision {
   RecordRef record;
 };
 
+struct RecordedWideWindow {
+  Moment moment;
+  RecordRef record;
+};
+
 class RecordIndex {
  public:
   /// Walks through an opened file. @return false: reader->problem() says why
@@ -69,6 +74,7 @@ class RecordIndex {
   std::int32_t window_step() const { return window_step_; }
 
   const std::vector<RecordedRevision>& revisions() const { return revisions_; }
+  const std::vector<RecordedWideWindow>& wide_windows() const { return wide_windows_; }
   const unisim_predictor_info& info() const { return info_; }
   bool has_frame_poses() const { return has_frame_poses_; }
   bool complete() const { return complete_; }
@@ -83,6 +89,7 @@ class RecordIndex {
   const char* add_pair(const RecordRef& record, const AlignedBytes& key);
   const char* add_window(const RecordRef& record, const AlignedBytes& key);
   const char* add_revision(const RecordRef& record, const AlignedBytes& key);
+  const char* add_wide_window(const RecordRef& record, const AlignedBytes& key);
   const char* add_frame_pose(const RecordRef& record, const AlignedBytes& key);
   const char* set_info(const RecordRef& record, const AlignedBytes& key);
   const char* set_end(const RecordRef& record, const AlignedBytes& key);
@@ -91,6 +98,7 @@ class RecordIndex {
   std::vector<RecordedFrame> keyframes_;
   std::map<Question, RecordedAnswers> answers_;
   std::vector<RecordedRevision> revisions_;
+  std::vector<RecordedWideWindow> wide_windows_;
   unisim_predictor_info info_{};
   std::int32_t window_size_ = 0;
   std::int32_t window_first_ = 0;  // its first keyframe

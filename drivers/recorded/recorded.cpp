@@ -22,9 +22,11 @@ struct Recorded : unisim_predictor {
   RecordIndex index;
   Moment now;
   std::size_t next_revision_at = 0;
+  std::size_t next_wide_at = 0;
   DecodedArrays pair;
   DecodedArrays window;
   DecodedArrays revision;
+  DecodedArrays wide;
   AlignedBytes scratch;
   std::string text;
 };
@@ -219,6 +221,29 @@ int next_revision(unisim_predictor* predictor, unisim_window_revision* out) {
   });
 }
 
+int next_wide_window(unisim_predictor* predictor, int32_t max_views,
+                     unisim_window_prediction* out) {
+  Recorded& recorded = self(predictor);
+  return guarded(recorded, [&] {
+    const auto& windows = recorded.index.wide_windows();
+    if (recorded.next_wide_at == windows.size()) return UNISIM_PREDICTION_PENDING;
+    const RecordedWideWindow& next = windows[recorded.next_wide_at];
+    if (!has_come(next.moment, recorded.now)) return UNISIM_PREDICTION_PENDING;
+    ++recorded.next_wide_at;
+    if (!recorded.reader.read_data(next.record, &recorded.wide.data)) {
+      return fail(recorded, recorded.reader.problem());
+    }
+    std::string problem;
+    const auto size = static_cast<std::size_t>(next.record.head.data_bytes);
+    const Decoded decoded = decode_window(size, &recorded.wide, out, &problem);
+    if (decoded == Decoded::kOk && out->count <= max_views) return UNISIM_PREDICTION_OK;
+    if (decoded == Decoded::kOk) return reject(recorded, "wide window larger than --window");
+    recorded.reader.damaged(next.record.offset, "wide window: " + problem);
+    return decoded == Decoded::kNotFinite ? reject(recorded, recorded.reader.problem())
+                                          : fail(recorded, recorded.reader.problem());
+  });
+}
+
 int frame_pose(unisim_predictor* predictor, unisim_frame_pose* out) {
   Recorded& recorded = self(predictor);
   return guarded(recorded, [&] {
@@ -251,7 +276,8 @@ void info(unisim_predictor* predictor, unisim_predictor_info* out) {
   Recorded& recorded = self(predictor);
   *out = recorded.index.info();
   std::size_t bytes = sizeof recorded + recorded.index.bytes() + recorded.scratch.capacity_bytes();
-  for (const DecodedArrays* arrays : {&recorded.pair, &recorded.window, &recorded.revision}) {
+  for (const DecodedArrays* arrays :
+       {&recorded.pair, &recorded.window, &recorded.revision, &recorded.wide}) {
     bytes += arrays->data.capacity_bytes();
   }
   out->state_bytes = static_cast<std::int64_t>(bytes);
@@ -271,6 +297,7 @@ void fill_table(Recorded* recorded) {
   recorded->two_view = two_view;
   recorded->multi_view = multi_view;
   recorded->next_revision = next_revision;
+  recorded->next_wide_window = next_wide_window;
   recorded->frame_pose = recorded->index.has_frame_poses() ? frame_pose : nullptr;
   recorded->finish = finish;
   recorded->info = info;

@@ -123,6 +123,18 @@ int next_revision(unisim_predictor* predictor, unisim_window_revision* out) {
   return status;
 }
 
+int next_wide_window(unisim_predictor* predictor, int32_t max_views,
+                     unisim_window_prediction* out) {
+  Recorder& recorder = self(predictor);
+  const int status = recorder.inner->next_wide_window(recorder.inner, max_views, out);
+  if (status != UNISIM_PREDICTION_OK) return status;
+  store(
+      recorder, Kind::kWideWindow, status,
+      [&](RecordBytes& bytes) { bytes.put(WideWindowKey{recorder.moment}); },
+      [&](RecordBytes& bytes) { encode_window(*out, &bytes); });
+  return status;
+}
+
 int frame_pose(unisim_predictor* predictor, unisim_frame_pose* out) {
   Recorder& recorder = self(predictor);
   const int status = recorder.inner->frame_pose(recorder.inner, out);
@@ -184,6 +196,7 @@ void fill_table(Recorder* recorder, unisim_predictor* inner) {
   recorder->two_view = two_view;
   recorder->multi_view = multi_view;
   recorder->next_revision = inner->next_revision != nullptr ? next_revision : nullptr;
+  recorder->next_wide_window = inner->next_wide_window != nullptr ? next_wide_window : nullptr;
   recorder->frame_pose = inner->frame_pose != nullptr ? frame_pose : nullptr;
   recorder->finish = inner->finish != nullptr ? finish : nullptr;
   recorder->info = info;

@@ -25,6 +25,7 @@ struct Scripted : unisim_predictor {
   std::vector<Pixels> confidence;
   std::vector<unisim_depth_map> maps;
   std::vector<int64_t> to_revise;
+  int32_t wide_for = -1;  // newest keyframe when the last wide window was given
   std::string text;
 };
 
@@ -121,6 +122,22 @@ int next_revision(unisim_predictor* predictor, unisim_window_revision* out) {
   return UNISIM_PREDICTION_PENDING;
 }
 
+/// One with every third keyframe.
+int next_wide_window(unisim_predictor* predictor, int32_t, unisim_window_prediction* out) {
+  Scripted& scripted = self(predictor);
+  const int32_t newest = scripted.newest;
+  if (newest < 3 || newest % 3 != 0 || newest == scripted.wide_for)
+    return UNISIM_PREDICTION_PENDING;
+  scripted.wide_for = newest;
+  scripted.ids = {0, newest / 2, newest};
+  scripted.poses = {pose_of(1.0), pose_of(5.0), pose_of(7.0 + newest)};
+  fill_maps(scripted, {3.0, 4.0, static_cast<double>(newest)});
+  *out = {
+      3,      scripted.ids.data(), scripted.poses.data(), scripted.maps.data(), 501.5, 0.003, -1,
+      nullptr};
+  return UNISIM_PREDICTION_OK;
+}
+
 int frame_pose(unisim_predictor* predictor, unisim_frame_pose* out) {
   Scripted& scripted = self(predictor);
   if (scripted.newest < 2) return UNISIM_PREDICTION_PENDING;
@@ -152,6 +169,7 @@ unisim_predictor* make_scripted_predictor() {
   scripted->two_view = two_view;
   scripted->multi_view = multi_view;
   scripted->next_revision = next_revision;
+  scripted->next_wide_window = next_wide_window;
   scripted->frame_pose = frame_pose;
   scripted->finish = finish;
   scripted->info = info;

@@ -102,6 +102,8 @@ class Runner {
     while (next_window_ + options_.window <= next_id_ && ask_window()) ++next_window_;
     while (ask_revision()) {
     }
+    while (ask_wide_window()) {
+    }
   }
 
   bool ask_pair() {
@@ -124,7 +126,19 @@ class Runner {
     for (int k = 0; k < options_.window; ++k) ids.push_back(next_window_ + k);
     unisim_window_prediction window{};
     const int status = predictor_->multi_view(predictor_, ids.data(), options_.window, &window);
-    Line line("window " + std::to_string(next_window_), status);
+    note_window("window " + std::to_string(next_window_), window, status);
+    return status != UNISIM_PREDICTION_PENDING;
+  }
+
+  bool ask_wide_window() {
+    unisim_window_prediction window{};
+    const int status = predictor_->next_wide_window(predictor_, options_.window, &window);
+    note_window("wide window", window, status);
+    return status == UNISIM_PREDICTION_OK;
+  }
+
+  void note_window(const std::string& what, const unisim_window_prediction& window, int status) {
+    Line line(what, status);
     for (int k = 0; status == UNISIM_PREDICTION_OK && k < window.count; ++k) {
       line.add(window.keyframe_ids[k]);
       line.add(window.T_window_kf[k]);
@@ -136,7 +150,6 @@ class Runner {
       line.add(static_cast<double>(window.token));
     }
     note(line, status);
-    return status != UNISIM_PREDICTION_PENDING;
   }
 
   bool ask_revision() {

@@ -18,7 +18,8 @@ struct RunOptions {
 
 /// What a run saw. Values are hexadecimal floats, so equal lines are equal bits.
 struct Transcript {
-  std::vector<std::string> answers;   ///< of two_view, multi_view, next_revision, frame_pose
+  std::vector<std::string>
+      answers;  ///< of two_view, multi_view, next_revision, next_wide_window, ...
   std::vector<std::string> messages;  ///< of REJECTED and FAILED
   std::vector<int> advice;            ///< keyframe_advice of each frame
   int failed = 0;                     ///< calls that said FAILED
