@@ -16,7 +16,8 @@ std::string request_name(const unisim_request& request) {
 
 }  // namespace
 
-MapBuilder::MapBuilder(const Parts& parts, size_t max_submaps) : parts_(parts) {
+MapBuilder::MapBuilder(const Parts& parts, size_t max_submaps)
+    : parts_(parts), wide_windows_(parts.session) {
   tokens_.reserve(max_submaps);
 }
 
@@ -158,6 +159,24 @@ void MapBuilder::take_revision(const unisim_window_revision& revision) {
   for (Listener* listener : *parts_.listeners) listener->on_revision(found->submap_id, revision);
 }
 
+Step MapBuilder::serve_wide_windows() {
+  if (parts_.predictor->next_wide_window == nullptr) return Step::kOk;
+  bool changed = false;
+  for (;;) {
+    unisim_window_prediction window{};
+    const int answer =
+        parts_.predictor->next_wide_window(parts_.predictor, parts_.window_size, &window);
+    if (answer == UNISIM_PREDICTION_FAILED) return Step::kPredictorFailed;
+    if (answer == UNISIM_PREDICTION_PENDING) break;
+    if (answer != UNISIM_PREDICTION_OK) continue;
+    bool taken = false;
+    const unisim_status status = wide_windows_.take(window, &taken);
+    if (status != UNISIM_OK) return session_failed("unisim_add_loop", status);
+    changed = changed || taken;
+  }
+  return changed ? optimize(1) : Step::kOk;
+}
+
 Step MapBuilder::reject_open_pairs() {
   unisim_request request;
   Step step = Step::kOk;
@@ -171,6 +190,7 @@ Step MapBuilder::close() {
   Step step = reject_open_pairs();
   if (step == Step::kOk) step = serve_windows();
   if (step == Step::kOk) step = serve_revisions();
+  if (step == Step::kOk) step = serve_wide_windows();
   if (step != Step::kOk) return step;
   if (parts_.session->close_window() == UNISIM_OK) step = serve_windows();
   constexpr int kFinalCalls = 5;

@@ -10,6 +10,7 @@
 #include "drivers/pipeline/listener.hpp"
 #include "drivers/pipeline/messages.hpp"
 #include "drivers/pipeline/session_client.hpp"
+#include "drivers/pipeline/wide_windows.hpp"
 #include "drivers/predictor.h"
 #include "unisim/unisim.h"
 
@@ -32,6 +33,7 @@ class MapBuilder {
     StageTimes* times;
     Messages* messages;
     const std::vector<Listener*>* listeners;
+    int32_t window_size;  ///< views a submap can have
   };
 
   /// @param max_submaps windows whose revisions can be followed
@@ -48,6 +50,9 @@ class MapBuilder {
 
   /// Takes windows that were measured anew; the graph is optimised when one came in.
   Step serve_revisions();
+
+  /// Takes wide windows; the graph is optimised when one came in.
+  Step serve_wide_windows();
 
   /// At the end, after a last serve_pairs(): pairs that stay unknown are rejected, the last shorter
   /// window is taken, the graph is optimised until it rests.
@@ -76,6 +81,7 @@ class MapBuilder {
 
   Parts parts_;
   std::vector<TokenOfSubmap> tokens_;
+  WideWindows wide_windows_;
   int32_t last_settled_ = 0;
 };
 

@@ -68,9 +68,10 @@ Preparation Pipeline::Impl::prepare() {
   // Windows start w - overlap keyframes apart; one shorter window may follow.
   const int32_t step = config_.window_size - config_.window_overlap;
   const int32_t windows = config_.max_keyframes / step + 2;
-  builder_ = std::make_unique<MapBuilder>(
-      MapBuilder::Parts{&session_, predictor_, &result_.times, &messages_, &listeners_},
-      static_cast<size_t>(windows));
+  builder_ =
+      std::make_unique<MapBuilder>(MapBuilder::Parts{&session_, predictor_, &result_.times,
+                                                     &messages_, &listeners_, config_.window_size},
+                                   static_cast<size_t>(windows));
   return preparation;
 }
 
@@ -151,7 +152,8 @@ bool Pipeline::Impl::track(const unisim_frame& frame) {
   if (!take_keyframe(frame)) return false;
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
   result_.times.track_total.add_ms(spent.count());
-  return went_well(builder_->serve_windows()) && went_well(builder_->serve_revisions());
+  return went_well(builder_->serve_windows()) && went_well(builder_->serve_revisions()) &&
+         went_well(builder_->serve_wide_windows());
 }
 
 bool Pipeline::Impl::take_keyframe(const unisim_frame& frame) {

@@ -14,6 +14,16 @@ Struct sized() {
   return made;
 }
 
+unisim_submap submap_of(const unisim_window_prediction& window) {
+  auto submap = sized<unisim_submap>();
+  submap.count = window.count;
+  submap.keyframe_ids = window.keyframe_ids;
+  submap.T_submap_kf = window.T_window_kf;
+  submap.depth = window.depth;
+  submap.center_sigma = window.center_sigma;
+  return submap;
+}
+
 }  // namespace
 
 SessionClient::~SessionClient() { unisim_session_destroy(session_); }
@@ -66,14 +76,19 @@ unisim_status SessionClient::add_two_view(int32_t i, int32_t j,
 
 unisim_status SessionClient::add_submap(const unisim_window_prediction& window,
                                         int32_t* submap_id) {
-  auto submap = sized<unisim_submap>();
-  submap.count = window.count;
-  submap.keyframe_ids = window.keyframe_ids;
-  submap.T_submap_kf = window.T_window_kf;
-  submap.depth = window.depth;
-  submap.center_sigma = window.center_sigma;
+  const unisim_submap submap = submap_of(window);
   return timed(&StageTimes::depth_ratio,
                [&] { return unisim_add_submap(session_, &submap, submap_id); });
+}
+
+unisim_status SessionClient::add_loop(const unisim_window_prediction& window, int32_t* submap_id) {
+  const unisim_submap submap = submap_of(window);
+  return timed(&StageTimes::depth_ratio,
+               [&] { return unisim_add_loop(session_, &submap, submap_id); });
+}
+
+unisim_status SessionClient::remove_loop(int32_t submap_id) {
+  return timed(&StageTimes::graph, [&] { return unisim_remove_loop(session_, submap_id); });
 }
 
 unisim_status SessionClient::update_submap(int32_t submap_id,

@@ -37,6 +37,8 @@ class SessionClient {
   unisim_status add_keyframe(int64_t timestamp_ns, int32_t* id);
   unisim_status add_two_view(int32_t i, int32_t j, const unisim_pair_prediction& pair);
   unisim_status add_submap(const unisim_window_prediction& window, int32_t* submap_id);
+  unisim_status add_loop(const unisim_window_prediction& window, int32_t* submap_id);
+  unisim_status remove_loop(int32_t submap_id);
   unisim_status update_submap(int32_t submap_id, const unisim_window_revision& revision);
   unisim_status reject(const unisim_request& request);
   unisim_status close_window();

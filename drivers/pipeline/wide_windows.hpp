@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Hands wide windows to the session and takes those back that a newer one says better.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "drivers/pipeline/session_client.hpp"
+#include "drivers/predictor.h"
+
+namespace unisim::pipeline {
+
+/// A predictor that adjusts all it holds gives a wide window each time. Newer ones were measured on
+/// the same images and more: one whose keyframes end before the middle of the newest stays, the
+/// others leave. Of 100 keyframes of redkitchen, all held (ATE): 0.0082 m when every wide window
+/// stays, 0.0068 m so, 0.0067 m without any, where nothing has left the sliding window.
+class WideWindows {
+ public:
+  explicit WideWindows(SessionClient* session);
+
+  /// @param[out] taken false: the session keeps those keyframes no longer, has no room for loops or
+  ///             found the window too poor
+  /// @return UNISIM_OK, or what ends the run
+  unisim_status take(const unisim_window_prediction& window, bool* taken);
+
+ private:
+  struct Kept {
+    int32_t submap_id;
+    int32_t last_keyframe;
+  };
+  unisim_status drop_outdated(const unisim_window_prediction& newest);
+
+  SessionClient* session_;
+  std::vector<Kept> kept_;
+};
+
+}  // namespace unisim::pipeline
