@@ -312,6 +312,27 @@ TEST_CASE("windows measured anew replace the old measurement") {
   CHECK(first_half < 1e-3);
 }
 
+TEST_CASE("wide windows correct what has left the sliding window, newer ones in place of older") {
+  const auto mean_error = [](int32_t wide_every) {
+    Run run;
+    run.predictor.window_noise = 0.02;
+    run.predictor.wide_every = wide_every;
+    run.config.window_submaps = 2;
+    run.config.max_loops = 16;
+    const Result& result = run.go();
+    REQUIRE(result.outcome == Outcome::kFinished);
+    CHECK(run.info().retired_keyframes > 0);
+    CHECK(run.info().loops == (wide_every > 0 ? 4 : 0));
+    CHECK(run.info().loops_removed == (wide_every > 0 ? 3 : 0));
+    double sum = 0.0;
+    for (int32_t k = 0; k < 40; ++k) sum += Run::distance(run.pose(k).T_world_kf, 5 * k);
+    return sum / 40.0;
+  };
+  const double without = mean_error(0);
+  const double with = mean_error(9);
+  CHECK(with < 0.7 * without);
+}
+
 TEST_CASE("a realtime run drops the frames it is late for") {
   Run run(30);
   run.options.realtime = true;

@@ -90,6 +90,9 @@ ScriptedPredictor::ScriptedPredictor() {
   t.next_revision = [](unisim_predictor* p, unisim_window_revision* out) {
     return self(p)->next_revision(out);
   };
+  t.next_wide_window = [](unisim_predictor* p, int32_t max_views, unisim_window_prediction* out) {
+    return self(p)->next_wide_window(max_views, out);
+  };
   t.frame_pose = [](unisim_predictor* p, unisim_frame_pose* out) {
     return self(p)->frame_pose(out);
   };
@@ -168,19 +171,40 @@ int ScriptedPredictor::multi_view(const int32_t* ids, int32_t count,
   if (nan_windows.count(ids[0]) != 0) {
     window_poses_.back().q[2] = std::numeric_limits<double>::quiet_NaN();
   }
-  window_maps_.clear();
-  window_depths_.resize(window_ids_.size());
-  for (size_t k = 0; k < window_ids_.size(); ++k) {
-    window_maps_.push_back(depth_of(ids[k], window_unit(ids[0]), &window_depths_[k]));
-  }
-  *out = {};
+  give_window(out);
   out->token = ++next_token_;
   if (revises) open_revisions_.push_back({out->token, window_ids_});
   if (wrong_window_ids) window_ids_.back() += 1000;
-  out->count = count;
+  return UNISIM_PREDICTION_OK;
+}
+
+/// The window of window_ids_ and window_poses_.
+void ScriptedPredictor::give_window(unisim_window_prediction* out) {
+  window_maps_.clear();
+  window_depths_.resize(window_ids_.size());
+  for (size_t k = 0; k < window_ids_.size(); ++k) {
+    window_maps_.push_back(
+        depth_of(window_ids_[k], window_unit(window_ids_[0]), &window_depths_[k]));
+  }
+  *out = {};
+  out->token = -1;
+  out->count = static_cast<int32_t>(window_ids_.size());
   out->keyframe_ids = window_ids_.data();
   out->T_window_kf = window_poses_.data();
   out->depth = window_maps_.data();
+}
+
+int ScriptedPredictor::next_wide_window(int32_t max_views, unisim_window_prediction* out) {
+  if (wide_every == 0) return UNISIM_PREDICTION_PENDING;
+  // The newest keyframe's pair may still be open.
+  const size_t settled = keyframes.size() - 1;
+  if (settled / static_cast<size_t>(wide_every) <= wide_given_) return UNISIM_PREDICTION_PENDING;
+  ++wide_given_;
+  window_ids_.clear();
+  const auto step = static_cast<int32_t>(settled) / max_views + 1;
+  for (int32_t id = 0; id < static_cast<int32_t>(settled); id += step) window_ids_.push_back(id);
+  fill_poses(window_ids_, 0.0);
+  give_window(out);
   return UNISIM_PREDICTION_OK;
 }
 

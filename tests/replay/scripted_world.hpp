@@ -69,6 +69,7 @@ class ScriptedPredictor {
   int64_t fails_at = -1;           ///< frame at which observe() fails
   double window_noise = 0.0;       ///< added to positions until the revision takes it away
   bool revises = false;            ///< every window is revised once, at finish()
+  int32_t wide_every = 0;          ///< keyframes from one exact wide window to the next; 0: none
   double flow = 0.0;               ///< what observe() reports per frame since the last keyframe
   std::vector<int64_t> keyframes;  ///< frame indices as told by keyframe()
   int64_t observed = 0;
@@ -88,7 +89,9 @@ class ScriptedPredictor {
   int two_view(int32_t i, int32_t j, unisim_pair_prediction* out);
   int multi_view(const int32_t* ids, int32_t count, unisim_window_prediction* out);
   int next_revision(unisim_window_revision* out);
+  int next_wide_window(int32_t max_views, unisim_window_prediction* out);
   int frame_pose(unisim_frame_pose* out);
+  void give_window(unisim_window_prediction* out);
   void fill_poses(const std::vector<int32_t>& ids, double noise);
   unisim_depth_map depth_of(int32_t keyframe, double unit, std::vector<float>* storage) const;
 
@@ -103,6 +106,7 @@ class ScriptedPredictor {
   std::vector<double> log_ratios_;
   std::vector<Window> open_revisions_;
   int64_t next_token_ = 100;
+  size_t wide_given_ = 0;  // wide windows so far
   bool finished_ = false;
 };
 
