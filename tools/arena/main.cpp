@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
 // unisim-arena: the exact bytes a session needs, by part.
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
-#include "tools/replay/failure.hpp"
+#include "tools/common/command_line.hpp"
+#include "tools/common/failure.hpp"
+#include "tools/common/output.hpp"
+#include "tools/common/program.hpp"
+#include "tools/common/text.hpp"
 #include "tools/replay/settings.hpp"
 #include "tools/replay/version.hpp"
 
 namespace {
 
-using unisim::replay::Failure;
+using unisim::tools::Failure;
 
 std::vector<unisim_arena_part> parts_of(const unisim_config& config) {
   size_t count = 0;
@@ -20,7 +22,7 @@ std::vector<unisim_arena_part> parts_of(const unisim_config& config) {
   std::vector<unisim_arena_part> parts(status == UNISIM_ERR_CAPACITY ? count : 0);
   if (!parts.empty()) status = unisim_arena_parts(&config, parts.data(), parts.size(), &count);
   if (status != UNISIM_OK) {
-    throw Failure(unisim::replay::kExitUsage,
+    throw Failure(unisim::tools::kExitUsage,
                   "a value of [session] is out of range: see the ranges in unisim/unisim.h");
   }
   return parts;
@@ -28,38 +30,28 @@ std::vector<unisim_arena_part> parts_of(const unisim_config& config) {
 
 void print(const unisim_config& config) {
   size_t total = 0;
+  std::string text;
   for (const unisim_arena_part& part : parts_of(config)) {
-    std::printf("%-16s %12zu\n", part.name, part.bytes);
+    text += unisim::tools::format("%-16s %12zu\n", part.name, part.bytes);
     total += part.bytes;
   }
-  std::printf("%-16s %12zu\n", "total", total);
+  unisim::tools::print(text + unisim::tools::format("%-16s %12zu\n", "total", total));
 }
 
-int fail(int code, const char* line) {
-  std::fprintf(stderr, "unisim-arena: %s\n", line);
-  return code;
+int arena(int argc, const char* const* argv) {
+  std::string file;
+  CLI::App app("Print the exact bytes a session needs, by part.");
+  app.set_version_flag("--version", unisim::replay::version_text());
+  app.add_option("--config", file, "TOML file as of unisim-replay --config; its [session] counts");
+  if (!unisim::tools::parse(&app, argc, argv)) return unisim::tools::kExitDone;
+  unisim::replay::Settings settings = unisim::replay::default_settings();
+  if (!file.empty()) unisim::replay::load_settings(file, &settings);
+  print(settings.session);
+  return unisim::tools::kExitDone;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string file;
-  CLI::App app("Print the exact bytes a session needs, by part.");
-  app.set_version_flag("--version", unisim::replay::version_text());
-  app.add_option("--config", file, "TOML file as of unisim-replay --config; its [session] counts");
-  try {
-    app.parse(argc, argv);
-    unisim::replay::Settings settings = unisim::replay::default_settings();
-    if (!file.empty()) unisim::replay::load_settings(file, &settings);
-    print(settings.session);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    return fail(unisim::replay::kExitUsage, error.what());
-  } catch (const Failure& failure) {
-    return fail(failure.code(), failure.what());
-  } catch (const std::exception& error) {
-    return fail(unisim::replay::kExitOther, error.what());
-  }
-  return unisim::replay::kExitDone;
+  return unisim::tools::run_program("unisim-arena", [&] { return arena(argc, argv); });
 }

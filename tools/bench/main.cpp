@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // unisim-bench: times and memory of the solver, of a session on a long walk, of depth ratios.
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <map>
 #include <string>
 
@@ -12,17 +10,14 @@
 #include "tools/bench/solver/solver_command.hpp"
 #include "tools/bench/solver/update_command.hpp"
 #include "tools/bench/walk/walk_command.hpp"
-#include "tools/replay/failure.hpp"
+#include "tools/common/command_line.hpp"
+#include "tools/common/failure.hpp"
+#include "tools/common/program.hpp"
 #include "tools/replay/version.hpp"
 
 namespace {
 
 using namespace unisim::bench;
-
-int fail(int code, const char* line) {
-  std::fprintf(stderr, "unisim-bench: %s\n", line);
-  return code;
-}
 
 void add_solver(CLI::App* app, SolverSettings* settings) {
   CLI::App* command = app->add_subcommand("solver", "Solve a pose graph of a file");
@@ -104,9 +99,7 @@ void add_depth(CLI::App* app, DepthSettings* settings) {
   command->add_flag("--json", settings->json, "one line of JSON");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int bench(int argc, const char* const* argv) {
   CLI::App app("Times and memory of libunisim; times are CPU time of the process.");
   app.set_version_flag("--version", unisim::replay::version_text());
   app.require_subcommand(1);
@@ -121,22 +114,20 @@ int main(int argc, char** argv) {
   add_window(&app, &walk, &walk_json);
   DepthSettings depth;
   add_depth(&app, &depth);
+  if (!unisim::tools::parse(&app, argc, argv)) return unisim::tools::kExitDone;
   try {
-    app.parse(argc, argv);
     if (app.got_subcommand("window")) return walk_command(walk, walk_json);
     if (app.got_subcommand("updates")) return update_command(updates);
     if (app.got_subcommand("covariance")) return covariance_command(covariance);
     if (app.got_subcommand("depth")) return depth_command(depth);
     return solver_command(solver);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    return fail(unisim::replay::kExitUsage, error.what());
   } catch (const unisim::sequence::InputError& error) {
-    return fail(unisim::replay::kExitInput, error.what());
-  } catch (const unisim::replay::Failure& failure) {
-    return fail(failure.code(), failure.what());
-  } catch (const std::exception& error) {
-    return fail(unisim::replay::kExitOther, error.what());
+    throw unisim::tools::Failure(unisim::tools::kExitInput, error.what());
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return unisim::tools::run_program("unisim-bench", [&] { return bench(argc, argv); });
 }

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <string>
+
+#include "tools/common/output.hpp"
+#include "tools/common/text.hpp"
 
 namespace unisim::bench {
 namespace {
@@ -28,12 +31,14 @@ Json times_json(std::vector<double> times) {
 
 void print_result(const Json& result, bool json) {
   if (json) {
-    std::printf("%s\n", result.dump().c_str());
+    tools::print(tools::json_text(result) + "\n");
     return;
   }
+  std::string text;
   for (const auto& [key, value] : result.items()) {
-    std::printf("%-22s %s\n", key.c_str(), value.dump().c_str());
+    text += tools::format("%-22s %s\n", key.c_str(), tools::json_text(value).c_str());
   }
+  tools::print(text);
 }
 
 }  // namespace unisim::bench

@@ -2,12 +2,13 @@
 // Times of many calls in a few numbers, and how results are printed.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <vector>
+
+#include "tools/common/json_text.hpp"
 
 namespace unisim::bench {
 
-using Json = nlohmann::ordered_json;
+using tools::Json;
 
 /// n, p50, p95, max [ms], to the microsecond; all 0 without times.
 Json times_json(std::vector<double> times);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // unisim-eval: errors of trajectories and clouds against ground truth.
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <map>
 
+#include "tools/common/command_line.hpp"
+#include "tools/common/failure.hpp"
+#include "tools/common/output.hpp"
+#include "tools/common/program.hpp"
 #include "tools/eval/ate.hpp"
 #include "tools/eval/cloud_metrics.hpp"
 #include "tools/eval/print.hpp"
@@ -12,10 +15,6 @@
 
 namespace unisim::eval {
 namespace {
-
-constexpr int kExitUsage = 2;
-constexpr int kExitInput = 3;
-constexpr int kExitDevice = 4;
 
 struct Arguments {
   std::string ground_truth, estimate, plot;
@@ -28,11 +27,7 @@ struct Arguments {
 };
 
 void print(const Arguments& arguments, const Json& result) {
-  if (arguments.json) {
-    std::printf("%s\n", result.dump(1).c_str());
-  } else {
-    print_text(result, stdout);
-  }
+  tools::print(arguments.json ? tools::json_text(result, 1) + "\n" : text_of(result));
 }
 
 int run_ate(const Arguments& arguments) {
@@ -42,13 +37,11 @@ int run_ate(const Arguments& arguments) {
       absolute_trajectory_error(truth, estimate, arguments.alignment, arguments.max_dt_s);
   print(arguments, ate_json({truth, estimate, arguments.alignment, arguments.max_dt_s}, ate));
   if (!arguments.plot.empty() && !write_top_view(arguments.plot, truth, ate)) {
-    std::fprintf(
-        stderr,
-        "unisim-eval: %s: cannot write the plot: give a .png in a folder that can be written\n",
-        arguments.plot.c_str());
-    return kExitDevice;
+    throw tools::Failure(
+        tools::kExitLimit,
+        arguments.plot + ": cannot write the plot: give a .png in a folder that can be written");
   }
-  return 0;
+  return tools::kExitDone;
 }
 
 int run_rpe(const Arguments& arguments) {
@@ -58,7 +51,7 @@ int run_rpe(const Arguments& arguments) {
       relative_pose_error(truth, estimate, arguments.alignment, arguments.max_dt_s, arguments.step);
   print(arguments,
         rpe_json({truth, estimate, arguments.alignment, arguments.max_dt_s}, arguments.step, rpe));
-  return 0;
+  return tools::kExitDone;
 }
 
 int run_cloud(const Arguments& arguments) {
@@ -75,7 +68,7 @@ int run_cloud(const Arguments& arguments) {
   const CloudMetrics metrics =
       compare_clouds(truth, estimate, T_truth_estimate, arguments.max_distance);
   print(arguments, cloud_json(truth, estimate, T_truth_estimate, arguments.max_distance, metrics));
-  return 0;
+  return tools::kExitDone;
 }
 
 void add_files(CLI::App* command, Arguments* arguments) {
@@ -144,36 +137,25 @@ void add_commands(CLI::App* app, Arguments* arguments) {
       ->check(CLI::NonNegativeNumber);
 }
 
-int run(int argc, char** argv) {
+int run(int argc, const char* const* argv) {
   Arguments arguments;
   CLI::App app("Errors of a trajectory or a cloud against ground truth");
   app.set_version_flag("--version", UNISIM_EVAL_VERSION);
   add_commands(&app, &arguments);
+  if (!tools::parse(&app, argc, argv)) return tools::kExitDone;
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "unisim-eval: %s: see unisim-eval --help\n", error.what());
-    return kExitUsage;
+    if (app.got_subcommand("ate")) return run_ate(arguments);
+    return app.got_subcommand("rpe") ? run_rpe(arguments) : run_cloud(arguments);
+  } catch (const InputError& error) {
+    throw tools::Failure(tools::kExitInput, error.what());
+  } catch (const std::invalid_argument& error) {
+    throw tools::Failure(tools::kExitUsage, std::string(error.what()) + ": see unisim-eval --help");
   }
-  if (app.got_subcommand("ate")) return run_ate(arguments);
-  return app.got_subcommand("rpe") ? run_rpe(arguments) : run_cloud(arguments);
 }
 
 }  // namespace
 }  // namespace unisim::eval
 
 int main(int argc, char** argv) {
-  try {
-    return unisim::eval::run(argc, argv);
-  } catch (const unisim::eval::InputError& error) {
-    std::fprintf(stderr, "unisim-eval: %s\n", error.what());
-    return unisim::eval::kExitInput;
-  } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "unisim-eval: %s: see unisim-eval --help\n", error.what());
-    return unisim::eval::kExitUsage;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "unisim-eval: %s\n", error.what());
-    return 1;
-  }
+  return unisim::tools::run_program("unisim-eval", [&] { return unisim::eval::run(argc, argv); });
 }

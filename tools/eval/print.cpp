@@ -2,6 +2,8 @@
 // What unisim-eval prints: the protocol, then the figures, as text or JSON.
 #include "tools/eval/print.hpp"
 
+#include "tools/common/text.hpp"
+
 namespace unisim::eval {
 namespace {
 
@@ -45,30 +47,31 @@ Json similarity_json(const Similarity& T) {
 bool is_figure(const Json& value) { return value.is_number_float(); }
 
 // "name value" lines; objects with figures of their own get their name in front.
-void print_figures(const Json& object, const std::string& prefix, std::FILE* out) {
+void add_figures(const Json& object, const std::string& prefix, std::string* out) {
   const std::string unit = object.value("unit", "");
   for (const auto& [name, value] : object.items()) {
     const std::string label = prefix + name;
     const bool has_unit = name != "scale" && name != "sse";
     if (is_figure(value)) {
-      std::fprintf(out, "%-20s %.9f%s%s\n", label.c_str(), value.get<double>(), has_unit ? " " : "",
-                   has_unit ? unit.c_str() : "");
+      *out += tools::format("%-20s %.9f%s%s\n", label.c_str(), value.get<double>(),
+                            has_unit ? " " : "", has_unit ? unit.c_str() : "");
     } else if (value.is_object() && value.contains("rmse")) {
-      print_figures(value, label + " ", out);
+      add_figures(value, label + " ", out);
     }
   }
 }
 
-void print_side(const char* label, const Json& side, std::FILE* out) {
+void add_side(const char* label, const Json& side, std::string* out) {
   if (!side.contains("format")) {
-    std::fprintf(out, "%-20s %s (%zu points, %zu not finite)\n", label,
-                 side["file"].get<std::string>().c_str(), side["points"].get<size_t>(),
-                 side["skipped_points"].get<size_t>());
+    *out += tools::format("%-20s %s (%zu points, %zu not finite)\n", label,
+                          side["file"].get<std::string>().c_str(), side["points"].get<size_t>(),
+                          side["skipped_points"].get<size_t>());
     return;
   }
-  std::fprintf(out, "%-20s %s (%s, %zu poses, %zu lines skipped)\n", label,
-               side["file"].get<std::string>().c_str(), side["format"].get<std::string>().c_str(),
-               side["poses"].get<size_t>(), side["skipped_lines"].get<size_t>());
+  *out += tools::format("%-20s %s (%s, %zu poses, %zu lines skipped)\n", label,
+                        side["file"].get<std::string>().c_str(),
+                        side["format"].get<std::string>().c_str(), side["poses"].get<size_t>(),
+                        side["skipped_lines"].get<size_t>());
 }
 
 }  // namespace
@@ -119,20 +122,23 @@ Json cloud_json(const Cloud& ground_truth, const Cloud& estimate,
   return out;
 }
 
-void print_text(const Json& result, std::FILE* out) {
+std::string text_of(const Json& result) {
+  std::string out;
   const Json& protocol = result["protocol"];
-  std::fprintf(out, "%-20s %s\n", "metric", result["metric"].get<std::string>().c_str());
-  print_side("ground truth", protocol["ground_truth"], out);
-  print_side("estimate", protocol["estimate"], out);
+  out += tools::format("%-20s %s\n", "metric", result["metric"].get<std::string>().c_str());
+  add_side("ground truth", protocol["ground_truth"], &out);
+  add_side("estimate", protocol["estimate"], &out);
   for (const auto& [name, value] : protocol.items()) {
     if (value.is_object()) continue;
-    std::fprintf(out, "%-20s %s\n", name.c_str(),
-                 value.is_string() ? value.get<std::string>().c_str() : value.dump().c_str());
+    out += tools::format(
+        "%-20s %s\n", name.c_str(),
+        value.is_string() ? value.get<std::string>().c_str() : tools::json_text(value).c_str());
   }
   if (result.contains("pairs")) {
-    std::fprintf(out, "%-20s %zu\n", "pairs", result["pairs"].get<size_t>());
+    out += tools::format("%-20s %zu\n", "pairs", result["pairs"].get<size_t>());
   }
-  print_figures(result, "", out);
+  add_figures(result, "", &out);
+  return out;
 }
 
 }  // namespace unisim::eval

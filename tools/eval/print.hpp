@@ -2,17 +2,16 @@
 // What unisim-eval prints: the protocol, then the figures, as text or JSON.
 #pragma once
 
-#include <cstdio>
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "tools/common/json_text.hpp"
 #include "tools/eval/ate.hpp"
 #include "tools/eval/cloud_metrics.hpp"
 #include "tools/eval/rpe.hpp"
 
 namespace unisim::eval {
 
-using Json = nlohmann::ordered_json;
+using tools::Json;
 
 /// How two trajectories were compared.
 struct Protocol {
@@ -29,6 +28,6 @@ Json cloud_json(const Cloud& ground_truth, const Cloud& estimate,
                 const CloudMetrics& metrics);
 
 /// The same as lines for people: the protocol on top, figures with their units below.
-void print_text(const Json& result, std::FILE* out);
+std::string text_of(const Json& result);
 
 }  // namespace unisim::eval

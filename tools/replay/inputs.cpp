@@ -8,7 +8,7 @@
 #include "drivers/onnx/onnx.h"
 #include "drivers/recorded/recorded.h"
 #include "drivers/sequence/sequence.h"
-#include "tools/replay/failure.hpp"
+#include "tools/common/failure.hpp"
 #include "tools/replay/window_layout.hpp"
 
 namespace unisim::replay {
@@ -19,12 +19,12 @@ constexpr size_t kLine = 1024;
 int exit_code(int32_t onnx_problem) {
   switch (onnx_problem) {
     case UNISIM_ONNX_BAD_MODEL:
-      return kExitInput;
+      return tools::kExitInput;
     case UNISIM_ONNX_NO_RUNTIME:
     case UNISIM_ONNX_NO_MEMORY:
-      return kExitLimit;
+      return tools::kExitLimit;
     default:
-      return kExitUsage;
+      return tools::kExitUsage;
   }
 }
 
@@ -39,7 +39,7 @@ PredictorPtr open_onnx(const Options& options, std::vector<std::string>* notes) 
   char message[kLine] = "";
   int32_t problem = UNISIM_ONNX_OK;
   PredictorPtr predictor(unisim_onnx_create(&config, &problem, message, sizeof message));
-  if (predictor == nullptr) throw Failure(exit_code(problem), message);
+  if (predictor == nullptr) throw tools::Failure(exit_code(problem), message);
   for (int32_t i = 0; unisim_onnx_note(predictor.get(), i) != nullptr; ++i) {
     notes->emplace_back(unisim_onnx_note(predictor.get(), i));
   }
@@ -52,13 +52,13 @@ PredictorPtr open_inner(const Options& options, std::vector<std::string>* notes)
   if (options.predictor == "recorded") {
     PredictorPtr predictor(
         unisim_recorded_open(options.predictions.c_str(), message, sizeof message));
-    if (predictor == nullptr) throw Failure(kExitInput, message);
+    if (predictor == nullptr) throw tools::Failure(tools::kExitInput, message);
     notes->emplace_back(message);
     return predictor;
   }
   PredictorPtr predictor(
       unisim_geometric_create(&options.settings.geometric, message, sizeof message));
-  if (predictor == nullptr) throw Failure(kExitUsage, message);
+  if (predictor == nullptr) throw tools::Failure(tools::kExitUsage, message);
   return predictor;
 }
 
@@ -73,7 +73,7 @@ SourcePtr open_sequence(const Options& options, std::string* note) {
   char message[kLine] = "";
   SourcePtr source(
       unisim_sequence_open(options.sequence.c_str(), &wanted, message, sizeof message));
-  if (source == nullptr) throw Failure(kExitInput, message);
+  if (source == nullptr) throw tools::Failure(tools::kExitInput, message);
   *note = unisim_sequence_note(source.get());
   return source;
 }
@@ -85,7 +85,8 @@ PredictorPtr open_predictor(const Options& options, Settings* settings,
   if (options.record.empty()) return inner;
   std::error_code ignored;
   if (!options.force && std::filesystem::is_regular_file(options.record, ignored)) {
-    throw Failure(kExitUsage, options.record + ": exists; give --force to overwrite it");
+    throw tools::Failure(tools::kExitUsage,
+                         options.record + ": exists; give --force to overwrite it");
   }
   char message[kLine] = "";
   // The recorder owns the predictor from here on; where it cannot be made, it is still ours.
@@ -94,7 +95,7 @@ PredictorPtr open_predictor(const Options& options, Settings* settings,
                                                options.sequence.c_str(), message, sizeof message));
   if (recorder == nullptr) {
     inner.reset(given);
-    throw Failure(kExitInput, message);
+    throw tools::Failure(tools::kExitInput, message);
   }
   return recorder;
 }

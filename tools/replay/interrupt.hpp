@@ -7,7 +7,6 @@
 namespace unisim::replay {
 
 /// Raised by the first SIGINT or SIGTERM; a second one ends the program at once.
-/// Files over a size limit give a write error from here on, not a signal.
 const std::atomic<bool>& catch_interrupts();
 
 }  // namespace unisim::replay

@@ -1,42 +1,30 @@
 // SPDX-License-Identifier: MIT
 // unisim-replay: a recorded sequence becomes a trajectory, a map and honest figures.
-#include <exception>
-#include <iostream>
-#include <new>
-
-#include "tools/replay/failure.hpp"
+#include "tools/common/failure.hpp"
+#include "tools/common/output.hpp"
+#include "tools/common/program.hpp"
 #include "tools/replay/interrupt.hpp"
 #include "tools/replay/options.hpp"
 #include "tools/replay/replay.hpp"
 
+namespace unisim::replay {
 namespace {
 
 int run(int argc, const char* const* argv) {
-  const std::atomic<bool>& stop = unisim::replay::catch_interrupts();
-  const auto options = unisim::replay::parse_options(argc, argv);
-  if (!options) return unisim::replay::kExitDone;
+  const std::atomic<bool>& stop = catch_interrupts();
+  const auto options = parse_options(argc, argv);
+  if (!options) return tools::kExitDone;
   if (options->print_config) {
-    unisim::replay::print_settings(options->settings, std::cout);
-    return unisim::replay::kExitDone;
+    tools::print(settings_text(options->settings));
+    return tools::kExitDone;
   }
-  return unisim::replay::replay(*options, stop);
-}
-
-int fail(int code, const char* line) {
-  std::cerr << "unisim-replay: " << line << "\n";
-  return code;
+  return replay(*options, stop);
 }
 
 }  // namespace
+}  // namespace unisim::replay
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const unisim::replay::Failure& failure) {
-    return fail(failure.code(), failure.what());
-  } catch (const std::bad_alloc&) {
-    return fail(unisim::replay::kExitLimit, "out of memory");
-  } catch (const std::exception& error) {
-    return fail(unisim::replay::kExitOther, error.what());
-  }
+  return unisim::tools::run_program(unisim::replay::kProgramName,
+                                    [&] { return unisim::replay::run(argc, argv); });
 }

@@ -4,11 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <iostream>
 #include <map>
 #include <vector>
 
-#include "tools/replay/failure.hpp"
+#include "tools/common/command_line.hpp"
+#include "tools/common/failure.hpp"
 #include "tools/replay/version.hpp"
 #include "tools/replay/window_layout.hpp"
 
@@ -111,7 +111,7 @@ void add_output_options(CLI::App* app, Options* options) {
 
 void refuse_not_built(const Options& options, const Given& given) {
   const auto refuse = [](bool asked, const char* what) {
-    if (asked) throw Failure(kExitUsage, std::string(what) + ": not built yet");
+    if (asked) throw tools::Failure(tools::kExitUsage, std::string(what) + ": not built yet");
   };
   refuse(!given.lcm.empty(), "--lcm");
   refuse(options.format == "lcm", "--format lcm");
@@ -145,7 +145,7 @@ void take_models(const Given& given, Options* options) {
 
 void check(const Options& options) {
   const auto require = [](bool good, const char* line) {
-    if (!good) throw Failure(kExitUsage, line);
+    if (!good) throw tools::Failure(tools::kExitUsage, line);
   };
   const pipeline::Options& run = options.settings.pipeline;
   require(!options.sequence.empty(), "SEQUENCE is missing: give a folder, a glob or a video file");
@@ -172,7 +172,7 @@ void check(const Options& options) {
 
 std::optional<Options> parse_options(int argc, const char* const* argv) {
   CLI::App app("Replays a recorded sequence: images in, trajectory, map and report out.",
-               "unisim-replay");
+               kProgramName);
   app.set_version_flag("--version", version_text());
   Options options;
   Given given;
@@ -181,14 +181,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   add_method_options(&app, &options, &given);
   add_model_options(&app, &options, &given);
   add_output_options(&app, &options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    app.exit(success);
-    return std::nullopt;
-  } catch (const CLI::ParseError& error) {
-    throw Failure(kExitUsage, std::string(error.what()) + "; --help lists the options");
-  }
+  if (!tools::parse(&app, argc, argv)) return std::nullopt;
   refuse_not_built(options, given);
   if (!given.config.empty()) load_settings(given.config, &options.settings);
   apply(given, &options.settings);

@@ -10,6 +10,8 @@
 
 namespace unisim::replay {
 
+inline constexpr const char* kProgramName = "unisim-replay";
+
 struct Options {
   std::string sequence;
   std::string out;

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "tools/replay/failure.hpp"
+#include "tools/common/failure.hpp"
 
 namespace unisim::replay {
 namespace fs = std::filesystem;
@@ -18,14 +18,16 @@ namespace {
 // Below this the small result files of a short run do not fit either.
 constexpr std::uintmax_t kLeastSpace = 1 << 20;
 
-Failure unwritable(const fs::path& path, const std::string& why) {
-  return {kExitInput, path.string() + ": cannot be written (" + why + "); choose another --out"};
+tools::Failure unwritable(const fs::path& path, const std::string& why) {
+  return {tools::kExitInput,
+          path.string() + ": cannot be written (" + why + "); choose another --out"};
 }
 
 void make_folder(const fs::path& path) {
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_directory(path, error)) {
-    throw Failure(kExitInput, path.string() + ": is not a folder; choose another --out");
+    throw tools::Failure(tools::kExitInput,
+                         path.string() + ": is not a folder; choose another --out");
   }
   fs::create_directories(path, error);
   if (error) throw unwritable(path, error.message());
@@ -40,9 +42,10 @@ void try_writing(const fs::path& path) {
   std::error_code error;
   const fs::space_info space = fs::space(path, error);
   if (!error && space.available < kLeastSpace) {
-    throw Failure(kExitLimit, path.string() +
-                                  ": no space left on the device; make room or choose "
-                                  "another --out");
+    throw tools::Failure(tools::kExitLimit,
+                         path.string() +
+                             ": no space left on the device; make room or choose "
+                             "another --out");
   }
 }
 
@@ -72,8 +75,8 @@ OutputFolder::OutputFolder(const std::string& path, const std::vector<std::strin
   for (const std::string& name : names) {
     std::error_code error;
     if (!force && fs::exists(path_ / name, error)) {
-      throw Failure(kExitUsage,
-                    path_of(name) + ": exists; give --force to overwrite, or another --out");
+      throw tools::Failure(tools::kExitUsage,
+                           path_of(name) + ": exists; give --force to overwrite, or another --out");
     }
   }
   try_writing(path_);

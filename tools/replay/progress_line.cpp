@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
-#include <nlohmann/json.hpp>
+
+#include "tools/common/json_text.hpp"
+#include "tools/common/output.hpp"
+#include "tools/common/text.hpp"
 
 namespace unisim::replay {
 namespace {
@@ -81,27 +84,26 @@ void ProgressLine::print_line(const pipeline::Progress& progress) const {
 }
 
 void ProgressLine::print_json(const pipeline::Progress& progress) const {
-  const nlohmann::ordered_json line = {{"type", "progress"},
-                                       {"frames", progress.frames},
-                                       {"frames_total", progress.frames_total},
-                                       {"frames_bad", progress.frames_bad},
-                                       {"frames_dropped", progress.frames_dropped},
-                                       {"keyframes", progress.keyframes},
-                                       {"submaps", progress.submaps},
-                                       {"state", state_name(progress.state)},
-                                       {"seconds", seconds()}};
-  std::cout << line.dump() << "\n" << std::flush;
+  const tools::Json line = {{"type", "progress"},
+                            {"frames", progress.frames},
+                            {"frames_total", progress.frames_total},
+                            {"frames_bad", progress.frames_bad},
+                            {"frames_dropped", progress.frames_dropped},
+                            {"keyframes", progress.keyframes},
+                            {"submaps", progress.submaps},
+                            {"state", state_name(progress.state)},
+                            {"seconds", seconds()}};
+  tools::print(tools::json_text(line) + "\n");
 }
 
 void ProgressLine::on_message(const std::string& line) {
   messages_.push_back(line);
   if (style_ == Style::kJson) {
-    std::cout << nlohmann::ordered_json({{"type", "message"}, {"text", line}}).dump() << "\n"
-              << std::flush;
+    tools::print(tools::json_text({{"type", "message"}, {"text", line}}) + "\n");
     return;
   }
   end_line();
-  std::cerr << line << "\n";
+  std::cerr << tools::one_line(line) << "\n";
 }
 
 void ProgressLine::finish() {

@@ -4,14 +4,14 @@
 
 #include <unistd.h>
 
-#include <iostream>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "drivers/recorded/recorded.h"
+#include "tools/common/failure.hpp"
+#include "tools/common/heap_counter.hpp"
+#include "tools/common/json_text.hpp"
+#include "tools/common/output.hpp"
 #include "tools/replay/cloud.hpp"
-#include "tools/replay/failure.hpp"
-#include "tools/replay/heap_counter.hpp"
 #include "tools/replay/inputs.hpp"
 #include "tools/replay/output_folder.hpp"
 #include "tools/replay/page.hpp"
@@ -47,8 +47,8 @@ void prepare(pipeline::Pipeline* pipeline) {
   using Answer = pipeline::Preparation::Answer;
   const pipeline::Preparation preparation = pipeline->prepare();
   if (preparation.answer == Answer::kReady) return;
-  const int code = preparation.answer == Answer::kNoMemory ? kExitLimit : kExitUsage;
-  throw Failure(code, preparation.message);
+  const int code = preparation.answer == Answer::kNoMemory ? tools::kExitLimit : tools::kExitUsage;
+  throw tools::Failure(code, preparation.message);
 }
 
 /// A recording of the geometric predictor is filtered as the predictor itself: the same map.
@@ -75,28 +75,28 @@ void write_page(const Run& run, const std::vector<std::string>& messages, Output
 int exit_code(pipeline::Outcome outcome, const Options& options) {
   switch (outcome) {
     case pipeline::Outcome::kFinished:
-      return kExitDone;
+      return tools::kExitDone;
     case pipeline::Outcome::kSourceFailed:
-      return kExitInput;
+      return tools::kExitInput;
     case pipeline::Outcome::kPredictorFailed:
-      return options.predictor == "recorded" ? kExitInput : kExitLimit;
+      return options.predictor == "recorded" ? tools::kExitInput : tools::kExitLimit;
     case pipeline::Outcome::kCapacity:
-      return kExitLimit;
+      return tools::kExitLimit;
     case pipeline::Outcome::kStopped:
     case pipeline::Outcome::kSessionFailed:
-      return kExitOther;
+      return tools::kExitOther;
   }
-  return kExitOther;
+  return tools::kExitOther;
 }
 
-void say_problem(const std::string& line) { std::cerr << "unisim-replay: " << line << "\n"; }
+void say_problem(const std::string& line) { tools::complain(kProgramName, line); }
 
 /// The run left no pose: says why.
 int report_nothing(const pipeline::Result& result, const Options& options) {
   std::string line = result.message;
   int code = exit_code(result.outcome, options);
   if (result.outcome == pipeline::Outcome::kFinished) {
-    code = kExitInput;
+    code = tools::kExitInput;
     const pipeline::Progress& progress = result.progress;
     if (progress.frames == 0) {
       line = "no readable frame among " + std::to_string(progress.frames_bad) +
@@ -125,17 +125,18 @@ void write_files(const Run& run, OutputFolder* folder) {
                        trajectory_text("all frames, final poses", run.data.frames, scale));
   }
   folder->write_text("keyframes.csv", keyframe_table(run.data.keyframes));
-  folder->write_text("summary.json", summary_json(run));
+  folder->write_text("summary.json", tools::json_text(summary_json(run), 1) + "\n");
 }
 
 void print_result(const Run& run, const OutputFolder& folder) {
   if (run.options.json) {
-    nlohmann::ordered_json line = {{"type", "result"}, {"files", folder.written()}};
-    line["summary"] = nlohmann::ordered_json::parse(summary_json(run));
-    std::cout << line.dump() << "\n" << std::flush;
+    tools::print(
+        tools::json_text(
+            {{"type", "result"}, {"files", folder.written()}, {"summary", summary_json(run)}}) +
+        "\n");
     return;
   }
-  std::cout << summary_text(run, folder.written()) << std::flush;
+  tools::print(summary_text(run, folder.written()));
 }
 
 /// Prints what went wrong on the way; the first reason decides the exit code.
@@ -143,15 +144,15 @@ int conclude(const Run& run, const OutputFolder& folder, const std::string& reco
   int code = exit_code(run.result.outcome, run.options);
   const auto add = [&code](int reason, const std::string& line) {
     if (line.empty()) return;
-    if (code == kExitDone) code = reason;
+    if (code == tools::kExitDone) code = reason;
     say_problem(line);
   };
   if (!run.result.message.empty()) {
     say_problem(run.result.message + "; what was known is written");
   }
-  for (const std::string& line : folder.failures()) add(kExitLimit, line);
-  add(kExitLimit, recording);
-  add(kExitInput, run.scores.problem);
+  for (const std::string& line : folder.failures()) add(tools::kExitLimit, line);
+  add(tools::kExitLimit, recording);
+  add(tools::kExitInput, run.scores.problem);
   return code;
 }
 
@@ -179,7 +180,7 @@ int replay(const Options& options, const std::atomic<bool>& stop) {
   pipeline::Options how = options.settings.pipeline;
   how.decode_images = true;  // the map has colours, also where the predictor needs no images
   pipeline::Pipeline pipeline(how, source.get(), predictor.get(), config, {&progress, &cloud},
-                              &stop, heap_counter());
+                              &stop, tools::heap_counter());
   prepare(&pipeline);
   const pipeline::Result& result = pipeline.run();
   progress.finish();

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "drivers/pipeline/similarity.hpp"
-#include "tools/replay/failure.hpp"
+#include "tools/common/failure.hpp"
 
 namespace unisim::replay {
 namespace {
@@ -16,8 +16,8 @@ std::vector<unisim_pose> read_poses(const unisim_session* session, int32_t keyfr
   size_t count = 0;
   const unisim_status status = unisim_get_trajectory(session, poses.data(), poses.size(), &count);
   if (status != UNISIM_OK) {
-    throw Failure(kExitOther,
-                  std::string("reading the trajectory: ") + unisim_status_string(status));
+    throw tools::Failure(tools::kExitOther,
+                         std::string("reading the trajectory: ") + unisim_status_string(status));
   }
   poses.resize(count);
   return poses;

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "tools/replay/failure.hpp"
+#include "tools/common/failure.hpp"
 
 namespace unisim::replay {
 namespace {
@@ -40,7 +40,7 @@ eval::Trajectory load_ground_truth(const std::string& path, unisim_source* sourc
     try {
       return eval::read_trajectory(path);
     } catch (const eval::InputError& error) {
-      throw Failure(kExitInput, error.what());
+      throw tools::Failure(tools::kExitInput, error.what());
     }
   }
   const unisim_stamped_pose* poses = nullptr;

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <ostream>
+#include <sstream>
 #include <variant>
 #include <vector>
 
-#include "tools/replay/failure.hpp"
+#include "tools/common/failure.hpp"
 
 namespace unisim::replay {
 namespace {
@@ -129,8 +129,8 @@ struct Place {
   std::string name;
   unsigned line;
 
-  Failure failure(const std::string& what) const {
-    return {kExitUsage, path + ":" + std::to_string(line) + ": " + name + " " + what};
+  tools::Failure failure(const std::string& what) const {
+    return {tools::kExitUsage, path + ":" + std::to_string(line) + ": " + name + " " + what};
   }
 };
 
@@ -178,7 +178,7 @@ toml::table parse_file(const std::string& path) {
   } catch (const toml::parse_error& error) {
     const auto line = error.source().begin.line;
     const std::string where = line > 0 ? path + ":" + std::to_string(line) : path;
-    throw Failure(kExitInput, where + ": " + std::string(error.description()));
+    throw tools::Failure(tools::kExitInput, where + ": " + std::string(error.description()));
   }
 }
 
@@ -187,7 +187,8 @@ toml::table parse_file(const std::string& path) {
 Settings default_settings() {
   Settings settings{};
   if (unisim_config_init(&settings.session, sizeof settings.session) != UNISIM_OK) {
-    throw Failure(kExitOther, "this program and libunisim do not fit together: rebuild both");
+    throw tools::Failure(tools::kExitOther,
+                         "this program and libunisim do not fit together: rebuild both");
   }
   unisim_geometric_config_init(&settings.geometric, sizeof settings.geometric);
   unisim_onnx_config_init(&settings.onnx, sizeof settings.onnx);
@@ -212,7 +213,8 @@ void load_settings(const std::string& path, Settings* settings) {
   if (file.at_path("session.max_keyframes")) settings->max_keyframes_given = true;
 }
 
-void print_settings(const Settings& settings, std::ostream& out) {
+std::string settings_text(const Settings& settings) {
+  std::ostringstream out;
   Settings copy = settings;
   std::string section;
   for (const Field& field : all_fields(&copy)) {
@@ -235,6 +237,7 @@ void print_settings(const Settings& settings, std::ostream& out) {
         field.target);
     out << "\n";
   }
+  return out.str();
 }
 
 }  // namespace unisim::replay

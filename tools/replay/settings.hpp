@@ -2,7 +2,6 @@
 // The configuration of a run: every field can be set in a TOML file.
 #pragma once
 
-#include <iosfwd>
 #include <string>
 
 #include "drivers/geometric/geometric.h"
@@ -30,7 +29,7 @@ Settings default_settings();
 /// with the nearest known one, or a value of the wrong type or range.
 void load_settings(const std::string& path, Settings* settings);
 
-/// Writes all fields as a file that load_settings() reads.
-void print_settings(const Settings& settings, std::ostream& out);
+/// All fields as a file that load_settings() reads.
+std::string settings_text(const Settings& settings);
 
 }  // namespace unisim::replay

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "drivers/onnx/onnx.h"
 #include "tools/replay/version.hpp"
@@ -15,7 +14,7 @@
 namespace unisim::replay {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using tools::Json;
 
 Json rmse_of(const std::optional<eval::Ate>& ate) {
   return ate ? Json(ate->error.rmse) : Json(nullptr);
@@ -135,39 +134,37 @@ double coverage(const RunData& data) {
          static_cast<double>(data.session.keyframes);
 }
 
-std::string summary_json(const Run& run) {
+Json summary_json(const Run& run) {
   const unisim_session_info& info = run.data.session;
   const Scores& scores = run.scores;
   const pipeline::Progress& progress = run.result.progress;
   const double focal = run.result.predictor.focal_px;
-  Json json = {
-      {"schema", 1},
-      {"version", version_text()},
-      {"sequence", run.options.sequence},
-      {"format", run.format},
-      {"protocol", protocol_json(run)},
-      {"outcome", outcome_name(run.result.outcome)},
-      {"frames", progress.frames},
-      {"frames_bad", progress.frames_bad},
-      {"frames_dropped", progress.frames_dropped},
-      {"keyframes", info.keyframes},
-      {"submaps", info.submaps},
-      {"loops", {{"candidates", 0}, {"accepted", 0}, {"rejected", 0}, {"undone", 0}}},
-      {"ate_rmse_m", rmse_of(scores.ate)},
-      {"ate_live_rmse_m", rmse_of(scores.live)},
-      {"rpe_trans_rmse_m", scores.rpe ? Json(scores.rpe->translation.rmse) : Json(nullptr)},
-      {"scale", scores.ate ? Json(scores.ate->T_truth_estimate.s) : Json(nullptr)},
-      {"coverage", coverage(run.data)},
-      {"lost_events", info.lost_events},
-      {"segments", info.segments},
-      {"pairs_refused", info.pairs_refused},
-      {"submaps_refused", info.submaps_refused},
-      {"focal_px", focal > 0.0 ? Json(focal) : Json(nullptr)},
-      {"memory", memory_json(run)},
-      {"timing_ms", timing_json(run.result.times)},
-      {"wall_s", run.result.wall_s},
-      {"fps", frames_per_second(run.result)}};
-  return json.dump(1) + "\n";
+  return {{"schema", 1},
+          {"version", version_text()},
+          {"sequence", run.options.sequence},
+          {"format", run.format},
+          {"protocol", protocol_json(run)},
+          {"outcome", outcome_name(run.result.outcome)},
+          {"frames", progress.frames},
+          {"frames_bad", progress.frames_bad},
+          {"frames_dropped", progress.frames_dropped},
+          {"keyframes", info.keyframes},
+          {"submaps", info.submaps},
+          {"loops", {{"candidates", 0}, {"accepted", 0}, {"rejected", 0}, {"undone", 0}}},
+          {"ate_rmse_m", rmse_of(scores.ate)},
+          {"ate_live_rmse_m", rmse_of(scores.live)},
+          {"rpe_trans_rmse_m", scores.rpe ? Json(scores.rpe->translation.rmse) : Json(nullptr)},
+          {"scale", scores.ate ? Json(scores.ate->T_truth_estimate.s) : Json(nullptr)},
+          {"coverage", coverage(run.data)},
+          {"lost_events", info.lost_events},
+          {"segments", info.segments},
+          {"pairs_refused", info.pairs_refused},
+          {"submaps_refused", info.submaps_refused},
+          {"focal_px", focal > 0.0 ? Json(focal) : Json(nullptr)},
+          {"memory", memory_json(run)},
+          {"timing_ms", timing_json(run.result.times)},
+          {"wall_s", run.result.wall_s},
+          {"fps", frames_per_second(run.result)}};
 }
 
 std::string summary_text(const Run& run, const std::vector<std::string>& files) {

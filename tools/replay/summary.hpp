@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/pipeline/pipeline.hpp"
+#include "tools/common/json_text.hpp"
 #include "tools/replay/options.hpp"
 #include "tools/replay/run_data.hpp"
 #include "tools/replay/scores.hpp"
@@ -37,7 +38,7 @@ std::vector<std::pair<std::string, const pipeline::LatencyHistogram*>> stages(
 int64_t process_peak_bytes();
 
 /// summary.json; a figure that is not known is null.
-std::string summary_json(const Run& run);
+tools::Json summary_json(const Run& run);
 
 /// A few lines for people.
 /// @param files what was written

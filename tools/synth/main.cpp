@@ -2,26 +2,24 @@
 // unisim-synth: renders a sequence with exact ground truth.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <string>
 
+#include "tools/common/command_line.hpp"
+#include "tools/common/failure.hpp"
+#include "tools/common/output.hpp"
+#include "tools/common/program.hpp"
 #include "tools/synth/sequence.hpp"
 
 namespace {
 
 using unisim::synth::SequenceOptions;
 
-int fail(int exit_code, const std::string& message) {
-  const std::string line = message.substr(0, message.find('\n'));
-  std::fprintf(stderr, "unisim-synth: %s\n", line.c_str());
-  return exit_code;
-}
-
 void parse_size(const std::string& text, SequenceOptions* options) {
   int read = 0;
   if (std::sscanf(text.c_str(), "%dx%d%n", &options->width, &options->height, &read) != 2 ||
       read != static_cast<int>(text.size())) {
-    throw CLI::ValidationError("--size", "must look like 640x480, not " + text);
+    throw unisim::tools::Failure(unisim::tools::kExitUsage,
+                                 "--size must look like 640x480, not " + text);
   }
 }
 
@@ -33,14 +31,13 @@ void run(const SequenceOptions& options, bool quiet) {
   });
   if (!quiet) {
     std::fprintf(stderr, "\r");
-    std::printf("%d frames of %s, %dx%d, in %s\n", options.frames, options.scene.c_str(),
-                options.width, options.height, options.folder.c_str());
+    unisim::tools::print(std::to_string(options.frames) + " frames of " + options.scene + ", " +
+                         std::to_string(options.width) + "x" + std::to_string(options.height) +
+                         ", in " + options.folder + "\n");
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int synth(int argc, const char* const* argv) {
   SequenceOptions options;
   std::string size = "640x480";
   bool quiet = false;
@@ -67,17 +64,14 @@ int main(int argc, char** argv) {
   app.add_option("--threads", options.threads, "0: one per core")->capture_default_str();
   app.add_flag("--force", options.force, "replace an earlier sequence in OUT");
   app.add_flag("--quiet", quiet, "print nothing but errors");
-  try {
-    app.parse(argc, argv);
-    parse_size(size, &options);
-    run(options, quiet);
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    return error.get_exit_code() == 0 ? app.exit(error)
-                                      : fail(unisim::synth::kBadUsage, error.what());
-  } catch (const unisim::synth::SynthError& error) {
-    return fail(error.exit_code(), error.what());
-  } catch (const std::exception& error) {
-    return fail(1, error.what());
-  }
+  if (!unisim::tools::parse(&app, argc, argv)) return unisim::tools::kExitDone;
+  parse_size(size, &options);
+  run(options, quiet);
+  return unisim::tools::kExitDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return unisim::tools::run_program("unisim-synth", [&] { return synth(argc, argv); });
 }

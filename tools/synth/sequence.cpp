@@ -9,6 +9,7 @@
 #include <sstream>
 #include <thread>
 
+#include "tools/common/failure.hpp"
 #include "tools/synth/encoding.hpp"
 #include "tools/synth/random.hpp"
 #include "tools/synth/renderer.hpp"
@@ -26,16 +27,17 @@ constexpr double kShutterShare = 0.5;
 SceneKind scene_kind(const SequenceOptions& options) {
   SceneKind kind = SceneKind::kRoom;
   if (!parse_scene_kind(options.scene, &kind)) {
-    throw SynthError(kBadUsage, "--scene " + options.scene +
-                                    " is unknown; known are room, corridor, desk, rotation, " +
-                                    "lowtexture, static");
+    throw tools::Failure(tools::kExitUsage,
+                         "--scene " + options.scene +
+                             " is unknown; known are room, corridor, desk, rotation, " +
+                             "lowtexture, static");
   }
   return kind;
 }
 
 void require(bool fine, const std::string& message) {
   if (!fine) {
-    throw SynthError(kBadUsage, message);
+    throw tools::Failure(tools::kExitUsage, message);
   }
 }
 

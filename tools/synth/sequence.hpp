@@ -33,7 +33,7 @@ struct SequenceOptions {
   int threads = 0;  ///< 0: one per processor core
 };
 
-/// @throws SynthError (kBadUsage) naming the first option that makes no sense
+/// @throws tools::Failure (2) naming the first option that makes no sense
 void check_options(const SequenceOptions& options);
 
 /// Camera and path that the options ask for.
@@ -45,7 +45,7 @@ double frame_time_s(const SequenceOptions& options, int frame);
 
 /// Check, render and write. The bytes do not depend on the number of threads.
 /// @param progress  called now and then, on the calling thread, with the number of frames done
-/// @throws SynthError
+/// @throws tools::Failure
 void write_sequence(const SequenceOptions& options, const std::function<void(int)>& progress);
 
 }  // namespace unisim::synth

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "tools/common/failure.hpp"
+
 namespace unisim::synth {
 namespace {
 
@@ -42,22 +44,25 @@ SequenceWriter::SequenceWriter(const std::string& folder, bool force, bool jpeg)
     : folder_(folder), jpeg_(jpeg) {
   try {
     if (fs::exists(folder) && !fs::is_directory(folder)) {
-      throw SynthError(kBadUsage, folder + " is a file; name a folder");
+      throw tools::Failure(tools::kExitUsage, folder + " is a file; name a folder");
     }
     if (fs::exists(folder) && !fs::is_empty(folder)) {
       if (!force) {
-        throw SynthError(kBadUsage, folder + " is not empty; choose another folder or add --force");
+        throw tools::Failure(tools::kExitUsage,
+                             folder + " is not empty; choose another folder or add --force");
       }
       if (!is_our_sequence(folder)) {
-        throw SynthError(kBadUsage, folder + " holds files that unisim-synth did not write; " +
-                                        "choose another folder");
+        throw tools::Failure(
+            tools::kExitUsage,
+            folder + " holds files that unisim-synth did not write; " + "choose another folder");
       }
       remove_sequence(folder);
     }
     fs::create_directories(fs::path(folder) / "rgb");
     fs::create_directories(fs::path(folder) / "depth");
   } catch (const fs::filesystem_error& error) {
-    throw SynthError(kDeviceFailed, "cannot write to " + folder + ": " + error.code().message());
+    throw tools::Failure(tools::kExitLimit,
+                         "cannot write to " + folder + ": " + error.code().message());
   }
 }
 
@@ -71,7 +76,8 @@ void SequenceWriter::write_text(const std::string& name, const std::string& text
   file << text;
   file.close();
   if (!file) {
-    throw SynthError(kDeviceFailed, "cannot write " + path.string() + "; is the disk full?");
+    throw tools::Failure(tools::kExitLimit,
+                         "cannot write " + path.string() + "; is the disk full?");
   }
 }
 
@@ -90,8 +96,8 @@ void SequenceWriter::write_frame(double time_s, const cv::Mat& image, const cv::
   const std::string depth_path = (fs::path(folder_) / depth_name(time_s)).string();
   if (!cv::imwrite(image_path, image, jpeg_ ? jpeg : png) ||
       !cv::imwrite(depth_path, depth, depth_png)) {
-    throw SynthError(kDeviceFailed,
-                     "cannot write " + image_path + " or its depth; is the disk full?");
+    throw tools::Failure(tools::kExitLimit,
+                         "cannot write " + image_path + " or its depth; is the disk full?");
   }
 }
 

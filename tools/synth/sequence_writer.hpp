@@ -12,19 +12,6 @@
 
 namespace unisim::synth {
 
-/// A message of one line for the user, with the program's exit code.
-class SynthError : public std::runtime_error {
- public:
-  SynthError(int exit_code, const std::string& message)
-      : std::runtime_error(message), exit_code_(exit_code) {}
-  int exit_code() const { return exit_code_; }
-
- private:
-  int exit_code_;
-};
-
-inline constexpr int kBadUsage = 2;
-inline constexpr int kDeviceFailed = 4;
 /// Depth image values per metre, as in the TUM benchmark.
 inline constexpr float kDepthFactor = 5000;
 
@@ -36,13 +23,13 @@ struct StampedPose {
 class SequenceWriter {
  public:
   /// Make the folder. A folder that holds anything is refused, except that with `force` an earlier
-  /// sequence of this program is removed. @throws SynthError
+  /// sequence of this program is removed. @throws tools::Failure
   SequenceWriter(const std::string& folder, bool force, bool jpeg);
 
   /// First file of a sequence: marks the folder as ours. @param text  of camera.toml
   void write_camera(const std::string& text) const;
 
-  /// May be called from several threads, for different times. @throws SynthError
+  /// May be called from several threads, for different times. @throws tools::Failure
   void write_frame(double time_s, const cv::Mat& image, const cv::Mat& depth) const;
 
   /// Last files of a sequence: rgb.txt, depth.txt, associations.txt, groundtruth.txt.

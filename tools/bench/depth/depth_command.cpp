@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "core/depth/log_median_ratio.hpp"
 #include "tools/bench/process.hpp"
-#include "tools/replay/failure.hpp"
+#include "tools/common/failure.hpp"
+#include "tools/common/json_text.hpp"
+#include "tools/common/output.hpp"
+#include "tools/common/text.hpp"
 #include "tools/synth/random.hpp"
 
 namespace unisim::bench {
@@ -56,7 +58,7 @@ void take_ratio(Maps* maps, bool confidence) {
   const Status status =
       log_median_ratio(a, b, kConfidenceDrop,
                        {maps->scratch.data(), static_cast<int32_t>(maps->scratch.size())}, &ratio);
-  if (!is_ok(status)) throw replay::Failure(replay::kExitOther, "log_median_ratio failed");
+  if (!is_ok(status)) throw tools::Failure(tools::kExitOther, "log_median_ratio failed");
 }
 
 double median_ms(Maps* maps, bool confidence, int32_t repeat) {
@@ -75,7 +77,7 @@ double median_ms(Maps* maps, bool confidence, int32_t repeat) {
 }  // namespace
 
 int depth_command(const DepthSettings& settings) {
-  nlohmann::ordered_json sizes = nlohmann::ordered_json::array();
+  tools::Json sizes = tools::Json::array();
   for (const Size& size : kSizes) {
     Maps maps(size.width * size.height);
     sizes.push_back({{"width", size.width},
@@ -84,15 +86,17 @@ int depth_command(const DepthSettings& settings) {
                      {"ms_with_confidence", median_ms(&maps, true, settings.repeat)}});
   }
   if (settings.json) {
-    std::printf("%s\n", nlohmann::ordered_json{{"depth_ratio", sizes}}.dump().c_str());
-    return replay::kExitDone;
+    tools::print(tools::json_text({{"depth_ratio", sizes}}) + "\n");
+    return tools::kExitDone;
   }
-  std::printf("%12s %12s %20s\n", "size", "ms", "ms with confidence");
+  std::string text = tools::format("%12s %12s %20s\n", "size", "ms", "ms with confidence");
   for (const auto& row : sizes) {
-    std::printf("%7dx%-4d %12.4f %20.4f\n", row["width"].get<int>(), row["height"].get<int>(),
-                row["ms"].get<double>(), row["ms_with_confidence"].get<double>());
+    text +=
+        tools::format("%7dx%-4d %12.4f %20.4f\n", row["width"].get<int>(), row["height"].get<int>(),
+                      row["ms"].get<double>(), row["ms_with_confidence"].get<double>());
   }
-  return replay::kExitDone;
+  tools::print(text);
+  return tools::kExitDone;
 }
 
 }  // namespace unisim::bench

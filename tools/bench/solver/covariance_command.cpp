@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "tools/bench/times.hpp"
-#include "tools/replay/failure.hpp"
-#include "tools/replay/heap_counter.hpp"
+#include "tools/common/failure.hpp"
+#include "tools/common/heap_counter.hpp"
 
 namespace unisim::bench {
 
@@ -15,7 +15,7 @@ int covariance_command(const CovarianceSettings& settings) {
   CovarianceRun run;
   std::vector<double> first_ms, another_ms, all_ms;
   for (int32_t i = 0; i < settings.repeat; ++i) {
-    run = run_covariance(graph, replay::heap_counter());
+    run = run_covariance(graph, tools::heap_counter());
     first_ms.push_back(run.first_ms);
     another_ms.push_back(run.another_ms);
     all_ms.push_back(run.all_ms);
@@ -29,7 +29,7 @@ int covariance_command(const CovarianceSettings& settings) {
                        {"all_ms", times_json(all_ms)},
                        {"trace_sum", run.trace_sum}};
   print_result(result, settings.json);
-  return replay::kExitDone;
+  return tools::kExitDone;
 }
 
 }  // namespace unisim::bench

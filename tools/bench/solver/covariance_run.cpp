@@ -6,16 +6,16 @@
 
 #include "tools/bench/process.hpp"
 #include "tools/bench/solver/problem.hpp"
-#include "tools/replay/failure.hpp"
+#include "tools/common/failure.hpp"
 
 namespace unisim::bench {
 namespace {
 
 void require(Status status) {
   if (is_ok(status)) return;
-  throw replay::Failure(replay::kExitLimit,
-                        "no covariance: the graph is singular or was not solved; hold one node of "
-                        "each connected part");
+  throw tools::Failure(tools::kExitLimit,
+                       "no covariance: the graph is singular or was not solved; hold one node of "
+                       "each connected part");
 }
 
 std::vector<int32_t> free_keyframes(const PoseGraph& source) {

@@ -6,12 +6,12 @@
 #include <limits>
 #include <string>
 
-#include "tools/replay/failure.hpp"
+#include "tools/common/failure.hpp"
 
 namespace unisim::bench {
 namespace {
 
-using replay::Failure;
+using tools::Failure;
 
 // The file's Huber width is on |e|, the core's on sqrt(weight) |e|: the cost is the same.
 EdgeWeight weight_of(const FileEdge& edge) {
@@ -47,7 +47,7 @@ Status add(const PoseGraph& source, const FileEdge& edge, Graph* graph) {
 
 void expect_ok(Status status, const std::string& where) {
   if (is_ok(status)) return;
-  throw Failure(replay::kExitInput,
+  throw Failure(tools::kExitInput,
                 where + " is refused by the solver: check its numbers and its weight");
 }
 
@@ -67,7 +67,7 @@ int32_t needed_factor_blocks(const PoseGraph& source) {
   LmReport report;
   if (problem.solver().optimize(&problem.graph(), options, &report) != Status::kCapacity) return 1;
   if (report.factor_blocks > std::numeric_limits<int32_t>::max()) {
-    throw Failure(replay::kExitLimit, "the factor of this graph has too many blocks");
+    throw Failure(tools::kExitLimit, "the factor of this graph has too many blocks");
   }
   return static_cast<int32_t>(report.factor_blocks);
 }

@@ -4,18 +4,21 @@
 
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
+#include <string>
 
 #include "tools/bench/process.hpp"
 #include "tools/bench/solver/problem.hpp"
 #include "tools/bench/solver/solver_run.hpp"
-#include "tools/replay/failure.hpp"
-#include "tools/replay/heap_counter.hpp"
+#include "tools/common/failure.hpp"
+#include "tools/common/heap_counter.hpp"
+#include "tools/common/json_text.hpp"
+#include "tools/common/output.hpp"
+#include "tools/common/text.hpp"
 
 namespace unisim::bench {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using tools::Json;
 
 // To the microsecond: below it there is noise only.
 double rounded(double ms) { return std::round(ms * 1e3) / 1e3; }
@@ -80,21 +83,23 @@ Json run_json(const SolverSettings& settings, const PoseGraph& graph, const LmOp
           {"trace", trace_json(run)}};
 }
 
-void print_table(const Json& result) {
+std::string table_text(const Json& result) {
+  std::string text;
   for (const auto& [key, value] : result.items()) {
     if (key == "split_ms") {
       for (const auto& [phase, ms] : value.items()) {
-        std::printf("  %-14s %12.3f\n", phase.c_str(), ms.get<double>());
+        text += tools::format("  %-14s %12.3f\n", phase.c_str(), ms.get<double>());
       }
     } else if (key == "trace") {
-      std::printf("%14s %20s\n", "ms", "cost");
+      text += tools::format("%14s %20s\n", "ms", "cost");
       for (const Json& state : value) {
-        std::printf("%14.3f %20.12g\n", state[0].get<double>(), state[1].get<double>());
+        text += tools::format("%14.3f %20.12g\n", state[0].get<double>(), state[1].get<double>());
       }
     } else {
-      std::printf("%-16s %s\n", key.c_str(), value.dump().c_str());
+      text += tools::format("%-16s %s\n", key.c_str(), tools::json_text(value).c_str());
     }
   }
+  return text;
 }
 
 }  // namespace
@@ -107,19 +112,15 @@ int solver_command(const SolverSettings& settings) {
   if (settings.initial_lambda > 0.0) options.initial_lambda = settings.initial_lambda;
   const int32_t factor_blocks = needed_factor_blocks(graph);
   for (int32_t i = 0; i < settings.repeat; ++i) {
-    const SolverRun run = run_solver(graph, factor_blocks, options, replay::heap_counter());
+    const SolverRun run = run_solver(graph, factor_blocks, options, tools::heap_counter());
     const Json result = run_json(settings, graph, options, resident_before_kb, run);
-    if (settings.json) {
-      std::printf("%s\n", result.dump().c_str());
-    } else {
-      print_table(result);
-    }
+    tools::print(settings.json ? tools::json_text(result) + "\n" : table_text(result));
     if (!is_ok(run.status)) {
-      throw replay::Failure(replay::kExitLimit,
-                            settings.graph + ": not solved: " + stop_name(run.report.stop));
+      throw tools::Failure(tools::kExitLimit,
+                           settings.graph + ": not solved: " + stop_name(run.report.stop));
     }
   }
-  return replay::kExitDone;
+  return tools::kExitDone;
 }
 
 }  // namespace unisim::bench

@@ -3,14 +3,14 @@
 #include "tools/bench/solver/update_command.hpp"
 
 #include "tools/bench/times.hpp"
-#include "tools/replay/failure.hpp"
-#include "tools/replay/heap_counter.hpp"
+#include "tools/common/failure.hpp"
+#include "tools/common/heap_counter.hpp"
 
 namespace unisim::bench {
 
 int update_command(const UpdateSettings& settings) {
   const PoseGraph graph = read_pose_graph(settings.graph);
-  const UpdateRun run = run_updates(graph, settings, replay::heap_counter());
+  const UpdateRun run = run_updates(graph, settings, tools::heap_counter());
   const Json result = {{"graph", settings.graph},
                        {"keyframes", run.keyframes},
                        {"from", settings.from},
@@ -23,7 +23,7 @@ int update_command(const UpdateSettings& settings) {
                        {"cost", run.cost},
                        {"cost_over_batch", run.cost / run.batch_cost}};
   print_result(result, settings.json);
-  return replay::kExitDone;
+  return tools::kExitDone;
 }
 
 }  // namespace unisim::bench

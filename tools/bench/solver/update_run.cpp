@@ -6,7 +6,7 @@
 
 #include "tools/bench/process.hpp"
 #include "tools/bench/solver/problem.hpp"
-#include "tools/replay/failure.hpp"
+#include "tools/common/failure.hpp"
 
 namespace unisim::bench {
 namespace {
@@ -62,9 +62,9 @@ class Arrival {
     run->heap_calls += heap_.calls() - calls_before;
     run->cost = report.final_cost;
     if (!is_ok(status)) {
-      throw replay::Failure(replay::kExitLimit,
-                            "an update was not solved: the graph is singular or "
-                            "its factor larger than declared");
+      throw tools::Failure(tools::kExitLimit,
+                           "an update was not solved: the graph is singular or "
+                           "its factor larger than declared");
     }
     return elapsed;
   }

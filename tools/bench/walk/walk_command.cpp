@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "tools/bench/times.hpp"
-#include "tools/replay/failure.hpp"
-#include "tools/replay/heap_counter.hpp"
+#include "tools/common/failure.hpp"
+#include "tools/common/heap_counter.hpp"
 
 namespace unisim::bench {
 namespace {
@@ -47,9 +47,9 @@ Json result_json(const WalkSettings& settings, const WalkResult& result) {
 }  // namespace
 
 int walk_command(const WalkSettings& settings, bool json) {
-  const Json result = result_json(settings, run_walk(settings, replay::heap_counter()));
+  const Json result = result_json(settings, run_walk(settings, tools::heap_counter()));
   print_result(result, json);
-  return replay::kExitDone;
+  return tools::kExitDone;
 }
 
 }  // namespace unisim::bench

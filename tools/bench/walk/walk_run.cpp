@@ -8,8 +8,8 @@
 #include "tools/bench/process.hpp"
 #include "tools/bench/simulator/predictor.hpp"
 #include "tools/bench/walk/walk_session.hpp"
+#include "tools/common/failure.hpp"
 #include "tools/eval/alignment.hpp"
-#include "tools/replay/failure.hpp"
 
 namespace unisim::bench {
 namespace {
@@ -21,7 +21,7 @@ constexpr int32_t kFinalIterations = 50;
 unisim_config config_for(const WalkSettings& settings, size_t loops) {
   unisim_config config{};
   if (unisim_config_init(&config, sizeof config) != UNISIM_OK) {
-    throw replay::Failure(replay::kExitOther, "unisim_config_init failed: rebuild the program");
+    throw tools::Failure(tools::kExitOther, "unisim_config_init failed: rebuild the program");
   }
   const bool bounded = settings.window_submaps > 0 && settings.readable > 0;
   config.max_keyframes = bounded ? settings.readable : settings.keyframes;

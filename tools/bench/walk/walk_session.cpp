@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <string>
 
-#include "tools/replay/failure.hpp"
+#include "tools/common/failure.hpp"
 
 namespace unisim::bench {
 namespace {
@@ -53,9 +53,8 @@ WalkSession::~WalkSession() { unisim_session_destroy(session_); }
 
 void WalkSession::expect_ok(unisim_status status, const char* call) const {
   if (status == UNISIM_OK) return;
-  throw replay::Failure(replay::kExitLimit, std::string(call) + ": " +
-                                                unisim_status_string(status) + " at keyframe " +
-                                                std::to_string(keyframes_ - 1));
+  throw tools::Failure(tools::kExitLimit, std::string(call) + ": " + unisim_status_string(status) +
+                                              " at keyframe " + std::to_string(keyframes_ - 1));
 }
 
 void WalkSession::add_keyframe() {

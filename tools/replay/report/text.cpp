@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tools/common/text.hpp"
+
 namespace unisim::report {
 namespace {
 
@@ -19,7 +21,7 @@ std::string print(const char* format, double value) {
 
 std::string escape(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : tools::valid_utf8(text)) {
     switch (c) {
       case '&':
         out += "&amp;";

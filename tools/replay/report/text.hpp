@@ -6,7 +6,8 @@
 
 namespace unisim::report {
 
-/// Text as it may stand in an element or a double-quoted attribute; control characters are dropped.
+/// Text as it may stand in an element or a double-quoted attribute; control characters are dropped,
+/// bytes that are not UTF-8 replaced.
 std::string escape(const std::string& text);
 
 /// A coordinate of a drawing: two decimals at most.

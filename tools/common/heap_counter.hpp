@@ -4,9 +4,9 @@
 
 #include "drivers/pipeline/heap_watch.hpp"
 
-namespace unisim::replay {
+namespace unisim::tools {
 
 /// Hooks of this program's malloc family; empty where it cannot be intercepted (sanitizers).
 pipeline::HeapWatch heap_counter();
 
-}  // namespace unisim::replay
+}  // namespace unisim::tools

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Counts the heap calls made while a thread is inside libunisim: this program's malloc family
 // stands before the C library's and passes every call on.
-#include "tools/replay/heap_counter.hpp"
+#include "tools/common/heap_counter.hpp"
 
 #include <atomic>
 #include <cstddef>
@@ -70,7 +70,7 @@ __attribute__((visibility("default"))) int posix_memalign(void** block, size_t a
 }
 }
 
-namespace unisim::replay {
+namespace unisim::tools {
 
 pipeline::HeapWatch heap_counter() {
   pipeline::HeapWatch watch;
@@ -80,14 +80,14 @@ pipeline::HeapWatch heap_counter() {
   return watch;
 }
 
-}  // namespace unisim::replay
+}  // namespace unisim::tools
 
 #else
 
-namespace unisim::replay {
+namespace unisim::tools {
 
 pipeline::HeapWatch heap_counter() { return {}; }
 
-}  // namespace unisim::replay
+}  // namespace unisim::tools
 
 #endif
