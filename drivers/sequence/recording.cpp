@@ -4,13 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "drivers/sequence/text_file.hpp"
 
 namespace unisim::sequence {
 
 int64_t time_at_rate(int64_t number, double fps) {
-  return std::llround(static_cast<long double>(number) * 1e9L / static_cast<long double>(fps));
+  const long double ns = static_cast<long double>(number) * 1e9L / static_cast<long double>(fps);
+  if (!(std::abs(ns) <= kMaxTimeNs)) {
+    char text[120];
+    std::snprintf(text, sizeof text, "frame %lld at %g frames/s is at no time: give a higher rate",
+                  static_cast<long long>(number), fps);
+    throw InputError(text);
+  }
+  return std::llround(ns);
 }
 
 void read_ground_truth(const std::string& path, PoseFormat format, Recording* recording) {

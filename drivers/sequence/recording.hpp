@@ -48,7 +48,10 @@ struct Format {
 
 extern const Format kTum, kSevenScenes, kEuroc, kKitti, kReplica, kImageList, kVideo;
 
-/// Time of frame `number` at a constant rate.
+/// Times beyond +-292 years do not fit int64_t nanoseconds.
+inline constexpr long double kMaxTimeNs = 9.2e18L;
+
+/// Time of frame `number` at a constant rate. @throws InputError beyond kMaxTimeNs
 int64_t time_at_rate(int64_t number, double fps);
 
 /// Ground truth from a pose file; an unreadable one leaves it empty and says so in the note.

@@ -18,7 +18,8 @@ namespace unisim::sequence {
 namespace {
 
 constexpr double kUsualFps = 30.0;
-constexpr int64_t kCountSlack = 2;  // containers estimate their number of frames
+constexpr double kSlowest = 1e-3, kFastest = 1e6;  // what a container may say, time-lapse included
+constexpr int64_t kCountSlack = 2;                 // containers estimate their number of frames
 
 // FFmpeg writes to stderr by itself; OpenCV hands this variable on to it.
 void silence_ffmpeg() { setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0); }
@@ -59,7 +60,7 @@ class VideoSource final : public FrameSource {
         range_(range) {
     const double own_fps = video_.get(cv::CAP_PROP_FPS);
     own_times_ = fps <= 0;
-    fps_ = fps > 0 ? fps : (own_fps > 0 && std::isfinite(own_fps) ? own_fps : kUsualFps);
+    fps_ = fps > 0 ? fps : (own_fps >= kSlowest && own_fps <= kFastest ? own_fps : kUsualFps);
     const double total = video_.get(cv::CAP_PROP_FRAME_COUNT);
     total_ = total > 0 && total < 1e12 ? static_cast<int64_t>(total) : -1;
   }
@@ -98,7 +99,7 @@ class VideoSource final : public FrameSource {
   void advance() {
     const int64_t by_rate = next_ == 0 ? 0 : timestamp_ns_ + time_at_rate(1, fps_);
     const double own_ms = video_.get(cv::CAP_PROP_POS_MSEC);
-    const int64_t own_ns = std::isfinite(own_ms) ? std::llround(own_ms * 1e6) : 0;
+    const int64_t own_ns = std::abs(own_ms * 1e6) <= kMaxTimeNs ? std::llround(own_ms * 1e6) : 0;
     if (!own_times_) {
       timestamp_ns_ = time_at_rate(next_, fps_);
     } else {

@@ -97,6 +97,47 @@ TEST_CASE("PLY files of no use are refused") {
   REQUIRE_THROWS_AS(read_ply(folder.write("e.ply", in_vertices)), InputError);
 }
 
+TEST_CASE("a count that a PLY file cannot hold is refused by its value") {
+  const TempFolder folder;
+  const std::string count =
+      GENERATE("-1", "-1e30", "1e30", "inf", "nan", "1.5", "2147483648", "99999999999999999999");
+  const std::string path = folder.write(
+      "a.ply", "ply\nformat ascii 1.0\nelement vertex " + count +
+                   "\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n");
+  try {
+    read_ply(path);
+    FAIL(count + " vertices were read");
+  } catch (const InputError& error) {
+    REQUIRE(std::string(error.what()).find("'" + count + "'") != std::string::npos);
+  }
+}
+
+TEST_CASE("a large count with few bytes behind it costs no memory") {
+  const TempFolder folder;
+  const std::string header =
+      "element vertex 2147483647\nproperty float x\nproperty float y\nproperty float "
+      "z\nend_header\n";
+  for (const std::string encoding : {"ascii", "binary_little_endian"}) {
+    const std::string path =
+        folder.write("a.ply", "ply\nformat " + encoding + " 1.0\n" + header + "0 0 0\n0 0 0\n");
+    REQUIRE_THROWS_WITH(read_ply(path), Catch::Contains("of 2147483647"));
+  }
+}
+
+TEST_CASE("points farther than the search can tell apart are left out and counted") {
+  const TempFolder folder;
+  const Cloud cloud = read_ply(
+      folder.write("a.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double "
+                   "y\nproperty double z\nend_header\n0 0 0\n1e300 0 0\n0 -1e30 0\n"));
+  REQUIRE(cloud.points.size() == 1);
+  REQUIRE(cloud.skipped == 2);
+  Similarity huge;
+  huge.s = 1e30;
+  const Cloud ones = cloud_of({{1, 1, 1}});
+  REQUIRE_THROWS_AS(compare_clouds(ones, ones, huge, 0), InputError);
+}
+
 TEST_CASE("accuracy, completeness and Chamfer by hand") {
   // The estimate hits one true point, misses another by 3 and has one 4 off.
   const Cloud truth = cloud_of({{0, 0, 0}, {10, 0, 0}, {10, 3, 0}});

@@ -138,6 +138,28 @@ TEST_CASE("bad usage is exit code 2") {
   REQUIRE(program.run("--help") == 0);
 }
 
+TEST_CASE("every number has a range, and what is outside is told with its option") {
+  Program program;
+  for (const std::string value : {"inf", "nan", "-1", "1e400", "x", "''"}) {
+    program.require_failure("ate gt.txt est.txt --max-dt " + value, 2, "--max-dt");
+    program.require_failure("rpe gt.txt est.txt --delta " + value, 2, "--delta");
+    program.require_failure("cloud gt.txt est.txt --max-distance " + value, 2, "--max-distance");
+  }
+  program.require_failure("ate gt.txt est.txt --max-dt 1e10", 2, "from 0 up to 1e+09");
+}
+
+TEST_CASE("a step longer than the trajectory is bad input, however long") {
+  Program program;
+  for (const std::string unit : {"frames", "m", "s"}) {
+    for (const std::string delta : {"4", "1e9", "1e18", "1e19", "1e30", "1e300"}) {
+      if (delta == "4" && unit == "m") continue;  // the square has a side longer than that
+      const std::string step = " --unit " + unit + " --delta " + delta;
+      program.require_failure("rpe gt.txt gt.txt" + step, 3, "no step of --delta");
+      program.require_failure("rpe gt.txt gt.txt --all-pairs" + step, 3, "no step of --delta");
+    }
+  }
+}
+
 TEST_CASE("bad input is exit code 3") {
   Program program;
   program.folder().write("words.txt", "no poses here\n");

@@ -3,6 +3,7 @@
 #include "drivers/sequence/pose_file.hpp"
 
 #include "drivers/sequence/folder.hpp"
+#include "drivers/sequence/recording.hpp"
 #include "drivers/sequence/text_file.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -101,6 +102,12 @@ TEST_CASE("times are read exactly") {
   REQUIRE(ns == 1403715273262142976);
   for (const char* text : {"", "nan", "inf", "1e30", "12a", "1,5"})
     REQUIRE_FALSE(parse_seconds(text, &ns));
+}
+
+TEST_CASE("a rate that puts a frame beyond all times is refused") {
+  REQUIRE(time_at_rate(3, 30.0) == 100000000);
+  REQUIRE_THROWS_AS(time_at_rate(1, 1e-30), InputError);
+  REQUIRE_THROWS_AS(time_at_rate(9000000000000000000, 1.0), InputError);
 }
 
 TEST_CASE("natural order puts 2 before 10") {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <opencv2/flann.hpp>
 
+#include "tools/eval/trajectory.hpp"
+
 namespace unisim::eval {
 namespace {
 
@@ -54,7 +56,11 @@ CloudMetrics compare_clouds(const Cloud& ground_truth, const Cloud& estimate,
                             const Similarity& T_truth_estimate, double max_distance) {
   Points moved;
   moved.reserve(estimate.points.size());
-  for (const Eigen::Vector3d& p : estimate.points) moved.push_back(T_truth_estimate * p);
+  for (const Eigen::Vector3d& p : estimate.points) {
+    moved.push_back(T_truth_estimate * p);
+    if (!is_near(moved.back()))
+      throw InputError(estimate.name + ": moved as the trajectories align, it is out of range");
+  }
   std::vector<double> to_truth = nearest_distances(moved, ground_truth.points);
   std::vector<double> to_estimate = nearest_distances(ground_truth.points, moved);
   CloudMetrics metrics;

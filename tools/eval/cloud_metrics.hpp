@@ -18,6 +18,7 @@ struct CloudMetrics {
 
 /// @param T_truth_estimate applied to the estimate first
 /// @param max_distance     larger distances count as this; 0: no limit
+/// @throws InputError when a moved point is not near
 CloudMetrics compare_clouds(const Cloud& ground_truth, const Cloud& estimate,
                             const Similarity& T_truth_estimate, double max_distance);
 

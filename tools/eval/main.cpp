@@ -71,12 +71,36 @@ int run_cloud(const Arguments& arguments) {
   return tools::kExitDone;
 }
 
+// Largest time difference that can be asked for: 30 years.
+constexpr double kMaxSeconds = 1e9;
+// Largest length that can be asked for: beyond any trajectory, and sums with it stay finite.
+constexpr double kMaxLength = 1e300;
+
+// The number must lie in a range. @return what is wrong, "" if nothing
+std::string out_of_range(const std::string& text, double low, bool with_low, double high) {
+  double value = 0;
+  const bool number = sequence::parse_number(text, &value);
+  if (number && (with_low ? value >= low : value > low) && value <= high) return "";
+  char range[80];
+  std::snprintf(range, sizeof range, "' is not a number %s %g up to %g",
+                with_low ? "from" : "above", low, high);
+  return "'" + text + range;
+}
+
+std::string seconds(const std::string& text) { return out_of_range(text, 0, true, kMaxSeconds); }
+
+std::string length(const std::string& text) { return out_of_range(text, 0, true, kMaxLength); }
+
+std::string step_length(const std::string& text) {
+  return out_of_range(text, 0, false, kMaxLength);
+}
+
 void add_files(CLI::App* command, Arguments* arguments) {
   command->add_option("GT", arguments->ground_truth, "ground truth")->required();
   command->add_option("EST", arguments->estimate, "estimate")->required();
   command->add_flag("--json", arguments->json, "print one JSON object");
   command->add_option("--max-dt", arguments->max_dt_s, "largest time difference of a pair, seconds")
-      ->check(CLI::NonNegativeNumber)
+      ->check(seconds, "0 to 1e9")
       ->capture_default_str();
 }
 
@@ -98,13 +122,6 @@ void add_alignment(CLI::App* command, Arguments* arguments) {
              "alignment of the estimate (default sim3)");
 }
 
-std::string above_zero(const std::string& text) {
-  double value = 0;
-  return sequence::parse_number(text, &value) && value > 0
-             ? ""
-             : "'" + text + "' is not a number above 0";
-}
-
 void add_commands(CLI::App* app, Arguments* arguments) {
   app->require_subcommand(1);
   CLI::App* ate =
@@ -117,7 +134,7 @@ void add_commands(CLI::App* app, Arguments* arguments) {
   add_files(rpe, arguments);
   add_alignment(rpe, arguments);
   rpe->add_option("--delta", arguments->step.delta, "length of the step")
-      ->check(above_zero, "above 0")
+      ->check(step_length, "above 0")
       ->capture_default_str();
   const std::map<std::string, StepUnit> units = {
       {"frames", StepUnit::kFrames}, {"m", StepUnit::kMetres}, {"s", StepUnit::kSeconds}};
@@ -134,7 +151,7 @@ void add_commands(CLI::App* app, Arguments* arguments) {
   cloud
       ->add_option("--max-distance", arguments->max_distance,
                    "larger distances count as this (0: no limit)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(length, "0 or more");
 }
 
 int run(int argc, const char* const* argv) {

@@ -4,15 +4,17 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <fstream>
+#include <limits>
 
 #include "tools/eval/trajectory.hpp"
 
 namespace unisim::eval {
 namespace {
 
-constexpr int64_t kMaxVertices = int64_t{1} << 31;
+constexpr int64_t kMaxVertices = std::numeric_limits<int32_t>::max();  // rows of an OpenCV matrix
 
 enum class Encoding { kUnknown, kAscii, kLittle, kBig };
 
@@ -55,6 +57,17 @@ Encoding encoding_of(const std::string& word) {
   return word == "binary_big_endian" ? Encoding::kBig : Encoding::kUnknown;
 }
 
+int64_t vertex_count(std::string_view text, const std::string& path) {
+  int64_t count = -1;
+  const char* end = text.data() + text.size();
+  const std::from_chars_result result = std::from_chars(text.data(), end, count);
+  if (result.ec != std::errc() || result.ptr != end || count < 0 || count > kMaxVertices) {
+    refuse(path, "'" + std::string(text) + "' vertices are not a whole number from 0 to " +
+                     std::to_string(kMaxVertices));
+  }
+  return count;
+}
+
 void add_property(const std::vector<std::string_view>& words, const std::string& path,
                   Header* header) {
   if (words.size() != 3) refuse(path, "a list among the vertex properties");
@@ -78,12 +91,8 @@ Header read_header(std::istream& file, const std::string& path) {
       header.encoding = encoding_of(std::string(words[1]));
     if (words[0] == "element" && words.size() == 3) {
       in_vertices = words[1] == "vertex";
-      double count = -1;
       if (header.vertices < 0 && !in_vertices) refuse(path, "vertices are not the first element");
-      if (in_vertices && sequence::parse_number(words[2], &count) &&
-          count <= static_cast<double>(kMaxVertices)) {
-        header.vertices = static_cast<int64_t>(count);
-      }
+      if (in_vertices) header.vertices = vertex_count(words[2], path);
     }
     if (words[0] == "property" && in_vertices) add_property(words, path, &header);
   }
@@ -148,6 +157,8 @@ bool read_binary_vertex(std::istream& file, const Header& header, std::vector<un
 
 }  // namespace
 
+bool is_near(const Eigen::Vector3d& point) { return (point.cwiseAbs().array() <= kFarthest).all(); }
+
 Cloud read_ply(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(path + ": cannot read: " + std::strerror(errno));
@@ -165,7 +176,7 @@ Cloud read_ply(const std::string& path) {
       refuse(path, "cut off or not numbers at vertex " + std::to_string(k) + " of " +
                        std::to_string(header.vertices));
     }
-    if (point.allFinite()) {
+    if (is_near(point)) {
       cloud.points.push_back(point);
     } else {
       ++cloud.skipped;

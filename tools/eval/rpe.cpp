@@ -36,9 +36,11 @@ std::vector<double> progress(const std::vector<Pose>& poses, StepUnit unit) {
   return along;
 }
 
-Steps steps_by_count(size_t poses, size_t delta, bool all_pairs) {
+Steps steps_by_count(size_t poses, const RpeStep& step) {
   Steps steps;
-  for (size_t k = 0; k + delta < poses; k += all_pairs ? 1 : delta)
+  if (step.delta >= static_cast<double>(poses)) return steps;
+  const auto delta = static_cast<size_t>(step.delta);
+  for (size_t k = 0; k + delta < poses; k += step.all_pairs ? 1 : delta)
     steps.emplace_back(k, k + delta);
   return steps;
 }
@@ -78,9 +80,7 @@ Steps nearest_steps(const std::vector<Pose>& poses, const RpeStep& step) {
 }
 
 Steps find_steps(const std::vector<Pose>& poses, const RpeStep& step) {
-  if (step.unit == StepUnit::kFrames) {
-    return steps_by_count(poses.size(), static_cast<size_t>(step.delta), step.all_pairs);
-  }
+  if (step.unit == StepUnit::kFrames) return steps_by_count(poses.size(), step);
   return step.all_pairs ? nearest_steps(poses, step) : consecutive_steps(poses, step);
 }
 
