@@ -7,8 +7,10 @@
 #include <cstring>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 #include <string_view>
 
+#include "drivers/sequence/exif_orientation.hpp"
 #include "drivers/sequence/folder.hpp"
 
 namespace unisim::sequence {
@@ -24,6 +26,18 @@ bool is_truncated(const std::vector<uint8_t>& file) {
   if (all.substr(0, 2) == "\xFF\xD8") return tail.find("\xFF\xD9") == std::string_view::npos;
   if (all.substr(0, 4) == "\x89PNG") return tail.find("IEND") == std::string_view::npos;
   return false;
+}
+
+// The orientation a file names. TIFF decoders turn by themselves: they are told there is nothing to
+// do.
+int take_orientation(std::vector<uint8_t>* file) {
+  const std::optional<OrientationTag> tag = find_orientation(*file);
+  if (!tag) return 1;
+  const bool tiff = file->front() == 'I' || file->front() == 'M';
+  if (!tiff) return tag->value;
+  (*file)[tag->at] = tag->big_endian ? 0 : 1;
+  (*file)[tag->at + 1] = tag->big_endian ? 1 : 0;
+  return tag->value;
 }
 
 std::string size_text(const cv::Size& size) {
@@ -44,7 +58,7 @@ unisim_image view_of(const cv::Mat& image) {
           image.channels() == 1 ? UNISIM_PIXEL_GRAY8 : UNISIM_PIXEL_BGR8};
 }
 
-bool ImageDecoder::read_file(const std::string& path, std::string* message) {
+bool StoredImage::load(const std::string& path, std::string* message) {
   errno = 0;
   std::ifstream stream(path, std::ios::binary | std::ios::ate);
   if (!stream || !is_file(path)) {
@@ -63,28 +77,48 @@ bool ImageDecoder::read_file(const std::string& path, std::string* message) {
   return static_cast<bool>(stream);
 }
 
-bool ImageDecoder::decode(const std::string& path, unisim_image* image, std::string* message) {
-  if (!read_file(path, message)) return false;
+bool StoredImage::decode(const std::string& path, int flags, std::string* message) {
+  std::string ignored;
+  if (message == nullptr) message = &ignored;
+  if (!load(path, message)) return false;
   if (is_truncated(file_)) {
     *message = "is truncated";
     return false;
   }
+  orientation_ = take_orientation(&file_);
   // Without a decoder for it imdecode() leaves the image before in place: asked for first.
-  if (!cv::haveImageReader(path) || !decode_buffer()) {
-    *message = "is not an image that can be decoded";
-    return false;
+  bool good = cv::haveImageReader(path);
+  try {
+    good = good && !cv::imdecode(file_, flags | cv::IMREAD_IGNORE_ORIENTATION, &pixels_).empty();
+  } catch (const cv::Exception&) {
+    good = false;
   }
-  if (!size_.fits(image_, message)) return false;
-  *image = view_of(image_);
-  return true;
+  if (!good) *message = "is not an image that can be decoded";
+  return good;
 }
 
-bool ImageDecoder::decode_buffer() {
-  try {
-    return !cv::imdecode(file_, cv::IMREAD_ANYCOLOR, &image_).empty();
-  } catch (const cv::Exception&) {
-    return false;
+bool StoredImage::read_8_bits(const std::string& path, std::string* message) {
+  return decode(path, cv::IMREAD_ANYCOLOR, message);
+}
+
+bool StoredImage::read(const std::string& path, std::string* message) {
+  // Asked for all bits, OpenCV also gives pixels of 32, which it cannot reduce to 8.
+  return decode(path, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH, message) &&
+         pixels_.depth() <= CV_16U;
+}
+
+bool ImageDecoder::decode(const std::string& path, unisim_image* image, std::string* message) {
+  const bool whole = rule_.bits == 16;
+  if (!(whole ? stored_.read_8_bits(path, message) : stored_.read(path, message))) return false;
+  cv::Mat picture = stored_.pixels();
+  if (picture.depth() == CV_16U) {
+    reduce_to_8_bits(picture, rule_.bits, &reduced_);
+    picture = reduced_;
   }
+  picture = upright(picture, rule_.orientation, &turned_);
+  if (!size_.fits(picture, message)) return false;
+  *image = view_of(picture);
+  return true;
 }
 
 }  // namespace unisim::sequence

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drivers/image.h"
+#include "drivers/sequence/pixel_rule.hpp"
 
 namespace unisim::sequence {
 
@@ -24,8 +25,34 @@ class SizeCheck {
 /// Borrowed view of an 8-bit image with one or three channels.
 unisim_image view_of(const cv::Mat& image);
 
+/// An image file as it is stored: not turned, 8 or 16 bits, one or three channels.
+class StoredImage {
+ public:
+  /// @param[out] message what is wrong with the file; may be NULL
+  /// @return false when it is missing, empty, truncated or not an image
+  bool read(const std::string& path, std::string* message = nullptr);
+
+  /// The same with 16 bits reduced to 8 as the decoder of the format does it.
+  bool read_8_bits(const std::string& path, std::string* message);
+
+  const cv::Mat& pixels() const { return pixels_; }
+  int orientation() const { return orientation_; }
+
+ private:
+  bool load(const std::string& path, std::string* message);
+  bool decode(const std::string& path, int flags, std::string* message);
+
+  std::vector<uint8_t> file_;
+  cv::Mat pixels_;
+  int orientation_ = 1;
+};
+
 class ImageDecoder {
  public:
+  explicit ImageDecoder(const PixelRule& rule) : rule_(rule) {}
+
+  const PixelRule& rule() const { return rule_; }
+
   /// Decodes a file: colour as BGR8, gray as GRAY8.
   /// @param[out] image   valid until the next call
   /// @param[out] message what is wrong with the file
@@ -33,11 +60,10 @@ class ImageDecoder {
   bool decode(const std::string& path, unisim_image* image, std::string* message);
 
  private:
-  bool read_file(const std::string& path, std::string* message);
-  bool decode_buffer();
-
-  std::vector<uint8_t> file_;
-  cv::Mat image_;
+  PixelRule rule_;
+  StoredImage stored_;
+  cv::Mat reduced_;
+  cv::Mat turned_;
   SizeCheck size_;
 };
 

@@ -10,11 +10,12 @@ namespace {
 
 class ImageSource final : public FrameSource {
  public:
-  ImageSource(const char* format_name, Recording recording, FrameRange range)
+  ImageSource(const char* format_name, Recording recording, FrameRange range, const PixelRule& rule)
       : FrameSource(format_name, std::move(recording.truth), std::move(recording.note)),
         frames_(std::move(recording.frames)),
         range_(range),
-        next_(range.from) {}
+        next_(range.from),
+        decoder_(rule) {}
 
  private:
   int64_t count() const override { return range_.to - range_.from; }
@@ -47,7 +48,14 @@ class ImageSource final : public FrameSource {
 
 std::unique_ptr<FrameSource> make_image_source(const char* format, Recording recording,
                                                FrameRange range) {
-  return std::make_unique<ImageSource>(format, std::move(recording), range);
+  std::vector<std::string> paths;
+  for (int64_t i = range.from; i < range.to; ++i) {
+    paths.push_back(recording.frames[static_cast<size_t>(i)].path);
+  }
+  const PixelRule rule = learn_pixel_rule(paths);
+  const std::string note = pixel_note(rule);
+  if (!note.empty()) add_note(&recording, note);
+  return std::make_unique<ImageSource>(format, std::move(recording), range, rule);
 }
 
 }  // namespace unisim::sequence

@@ -10,6 +10,11 @@
  *  | replica | folder with results/frame*.jpg and traj.txt                                    |
  *  | images  | folder of images, or a pattern with * and ?; in natural order                  |
  *  | video   | any file OpenCV can play                                                       |
+ *
+ *  A camera does not turn its sensor on the way: the EXIF orientation of the first readable image
+ *  holds for all of them. 16-bit images that use 8, 10, 12 or 14 bits (judged by eight of them,
+ *  spread over the range asked for) are reduced to 8 bits from these. 16-bit gray images with
+ *  "depth" in the name of file or folder are refused.
  */
 #ifndef UNISIM_DRIVERS_REPLAY_SEQUENCE_H
 #define UNISIM_DRIVERS_REPLAY_SEQUENCE_H
