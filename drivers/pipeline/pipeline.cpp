@@ -121,7 +121,7 @@ bool Pipeline::Impl::take(const FrameReader::Item& item) {
     messages_.say(MessageKind::kBadFrame, item.message);
     return true;
   }
-  if (options_.realtime && !pacer_.keep(item.frame.timestamp_ns)) {
+  if (options_.realtime && !pacer_.keep(item.frame.timestamp_ns, stop_)) {
     ++result_.progress.frames_dropped;
     return true;
   }
