@@ -7,6 +7,7 @@
 
 #include "drivers/predictor.h"
 #include "drivers/source.h"
+#include "unisim/unisim.h"
 
 namespace unisim::pipeline {
 
@@ -21,6 +22,20 @@ struct Progress {
   int32_t state = 0;  ///< UNISIM_STATE_*
 };
 
+/// A pose as it was first given out, before any later correction.
+struct LivePose {
+  int64_t timestamp_ns;
+  unisim_sim3 T_world_cam;
+  int32_t keyframe_id;  ///< -1: a frame between keyframes
+};
+
+/// A frame between keyframes, held by the keyframe before it.
+struct BetweenPose {
+  int64_t timestamp_ns;
+  int32_t keyframe_id;
+  unisim_sim3 T_kf_frame;
+};
+
 /// Receives events on the thread that called Pipeline::run(). Pointers are valid during the call.
 /// A listener may read the session through the C API but must not change it.
 class Listener {
@@ -30,11 +45,21 @@ class Listener {
   /// `frame` became keyframe `id`. frame.image.data is NULL when images are not decoded.
   virtual void on_keyframe(int32_t /*id*/, const unisim_frame& /*frame*/) {}
 
+  /// A pose is known for the first time; in order of time.
+  virtual void on_live_pose(const LivePose& /*pose*/) {}
+
+  /// A frame between keyframes is placed; with Options::every_frame.
+  virtual void on_between_pose(const BetweenPose& /*pose*/) {}
+
   /// A window entered the graph as `submap_id` (never -1: refused windows are not told).
   virtual void on_window(int32_t /*submap_id*/, const unisim_window_prediction& /*window*/) {}
 
   /// The measurement of `submap_id` was replaced.
   virtual void on_revision(int32_t /*submap_id*/, const unisim_window_revision& /*revision*/) {}
+
+  /// A keyframe or submap has left the sliding window; see unisim_next_retired().
+  /// @param pose of the keyframe as it stands now; NULL for a submap
+  virtual void on_retired(const unisim_retired& /*retired*/, const unisim_pose* /*pose*/) {}
 
   /// After each frame.
   virtual void on_progress(const Progress& /*progress*/) {}

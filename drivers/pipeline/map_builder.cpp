@@ -17,9 +17,7 @@ std::string request_name(const unisim_request& request) {
 }  // namespace
 
 MapBuilder::MapBuilder(const Parts& parts, size_t max_submaps)
-    : parts_(parts), wide_windows_(parts.session) {
-  tokens_.reserve(max_submaps);
-}
+    : parts_(parts), tokens_(max_submaps, {-1, -1}), wide_windows_(parts.session) {}
 
 Step MapBuilder::session_failed(const char* call, unisim_status status) {
   if (status == UNISIM_ERR_CAPACITY) return Step::kCapacity;
@@ -125,8 +123,9 @@ Step MapBuilder::take_window(const unisim_request& request, const unisim_window_
   }
   if (status != UNISIM_OK) return session_failed("unisim_add_submap", status);
   if (submap_id < 0) return Step::kOk;
-  if (tokens_.size() < tokens_.capacity()) tokens_.push_back({window.token, submap_id});
+  tokens_[next_token_++ % tokens_.size()] = {window.token, submap_id};
   for (Listener* listener : *parts_.listeners) listener->on_window(submap_id, window);
+  tell_retired();
   return Step::kOk;
 }
 
@@ -146,9 +145,11 @@ Step MapBuilder::serve_revisions() {
 }
 
 void MapBuilder::take_revision(const unisim_window_revision& revision) {
-  const auto same = [&](const TokenOfSubmap& entry) { return entry.token == revision.token; };
-  const auto found = std::find_if(tokens_.rbegin(), tokens_.rend(), same);
-  if (found == tokens_.rend()) return;
+  const auto same = [&](const TokenOfSubmap& entry) {
+    return entry.submap_id >= 0 && entry.token == revision.token;
+  };
+  const auto found = std::find_if(tokens_.begin(), tokens_.end(), same);
+  if (found == tokens_.end()) return;
   const unisim_status status = parts_.session->update_submap(found->submap_id, revision);
   if (status != UNISIM_OK) {
     parts_.messages->say(MessageKind::kInvalid, "revision of submap " +
@@ -175,6 +176,18 @@ Step MapBuilder::serve_wide_windows() {
     changed = changed || taken;
   }
   return changed ? optimize(1) : Step::kOk;
+}
+
+void MapBuilder::tell_retired() {
+  unisim_retired retired;
+  while (parts_.session->next_retired(&retired) == UNISIM_OK) {
+    unisim_pose pose;
+    const bool posed = retired.kind == UNISIM_RETIRED_KEYFRAME &&
+                       parts_.session->get_pose(retired.keyframe_id, &pose) == UNISIM_OK;
+    for (Listener* listener : *parts_.listeners) {
+      listener->on_retired(retired, posed ? &pose : nullptr);
+    }
+  }
 }
 
 Step MapBuilder::reject_open_pairs() {

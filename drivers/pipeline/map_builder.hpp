@@ -36,7 +36,7 @@ class MapBuilder {
     int32_t window_size;  ///< views a submap can have
   };
 
-  /// @param max_submaps windows whose revisions can be followed
+  /// @param max_submaps newest windows whose revisions can be followed
   MapBuilder(const Parts& parts, size_t max_submaps);
 
   /// New keyframe in session and predictor, under one number.
@@ -53,6 +53,10 @@ class MapBuilder {
 
   /// Takes wide windows; the graph is optimised when one came in.
   Step serve_wide_windows();
+
+  /// Tells the listeners what has left the sliding window. To be called after each keyframe: what
+  /// is not read in time the session loses.
+  void tell_retired();
 
   /// At the end, after a last serve_pairs(): pairs that stay unknown are rejected, the last shorter
   /// window is taken, the graph is optimised until it rests.
@@ -80,7 +84,8 @@ class MapBuilder {
   std::string predictor_message() const { return parts_.predictor->message(parts_.predictor); }
 
   Parts parts_;
-  std::vector<TokenOfSubmap> tokens_;
+  std::vector<TokenOfSubmap> tokens_;  // a ring of the newest
+  size_t next_token_ = 0;
   WideWindows wide_windows_;
   int32_t last_settled_ = 0;
 };

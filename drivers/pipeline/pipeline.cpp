@@ -40,7 +40,8 @@ class Pipeline::Impl {
   bool track(const unisim_frame& frame);
   bool take_keyframe(const unisim_frame& frame);
   void pose_between(const unisim_frame& frame);
-  void record_live();
+  void give_out_live();
+  void give_out(const LivePose& pose);
   void finish();
   bool went_well(Step step);
   void end(Outcome outcome, const std::string& message);
@@ -152,28 +153,30 @@ bool Pipeline::Impl::track(const unisim_frame& frame) {
   if (!take_keyframe(frame)) return false;
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
   result_.times.track_total.add_ms(spent.count());
-  return went_well(builder_->serve_windows()) && went_well(builder_->serve_revisions()) &&
-         went_well(builder_->serve_wide_windows());
+  const bool goes_on = went_well(builder_->serve_windows()) &&
+                       went_well(builder_->serve_revisions()) &&
+                       went_well(builder_->serve_wide_windows());
+  builder_->tell_retired();
+  return goes_on;
 }
 
 bool Pipeline::Impl::take_keyframe(const unisim_frame& frame) {
   int32_t id = -1;
   if (!went_well(builder_->add_keyframe(frame, &id))) return false;
-  result_.keyframe_frames.push_back(frame.index);
   ++result_.progress.keyframes;
   for (Listener* listener : listeners_) listener->on_keyframe(id, frame);
   const bool goes_on = went_well(builder_->serve_pairs());
-  record_live();
+  give_out_live();
   return goes_on;
 }
 
-void Pipeline::Impl::record_live() {
+void Pipeline::Impl::give_out_live() {
   if (builder_->last_settled() == 0) return;
   for (; next_live_ <= builder_->last_settled(); ++next_live_) {
     unisim_pose pose{};
     // A held pose (confidence 0) is the old one repeated, not a pose of this keyframe.
     if (session_.get_pose(next_live_, &pose) != UNISIM_OK || pose.confidence == 0) continue;
-    result_.live.push_back({pose.timestamp_ns, pose.T_world_kf, next_live_});
+    give_out({pose.timestamp_ns, pose.T_world_kf, next_live_});
   }
 }
 
@@ -184,8 +187,14 @@ void Pipeline::Impl::pose_between(const unisim_frame& frame) {
   unisim_pose pose{};
   const int32_t keyframe = between.keyframe_id;
   if (session_.get_pose(keyframe, &pose) != UNISIM_OK || pose.confidence == 0) return;
-  result_.between.push_back({frame.timestamp_ns, keyframe, between.T_kf_frame});
-  result_.live.push_back({frame.timestamp_ns, compose(pose.T_world_kf, between.T_kf_frame), -1});
+  for (Listener* listener : listeners_) {
+    listener->on_between_pose({frame.timestamp_ns, keyframe, between.T_kf_frame});
+  }
+  give_out({frame.timestamp_ns, compose(pose.T_world_kf, between.T_kf_frame), -1});
+}
+
+void Pipeline::Impl::give_out(const LivePose& pose) {
+  for (Listener* listener : listeners_) listener->on_live_pose(pose);
 }
 
 void Pipeline::Impl::finish() {
@@ -199,8 +208,9 @@ void Pipeline::Impl::finish() {
   // A predictor that never started leaves no map to close.
   if (went_well(builder_->serve_pairs()) && builder_->last_settled() > 0) {
     went_well(builder_->close());
+    builder_->tell_retired();
   }
-  record_live();
+  give_out_live();
   tell_progress();
 }
 

@@ -27,20 +27,6 @@ struct Options {
   bool decode_images = false;  ///< decode for the listeners, also where the predictor needs none
 };
 
-/// A pose as it was first given out, before any later correction.
-struct LivePose {
-  int64_t timestamp_ns;
-  unisim_sim3 T_world_cam;
-  int32_t keyframe_id;  ///< -1: a frame between keyframes
-};
-
-/// A frame between keyframes, held by the keyframe before it.
-struct BetweenPose {
-  int64_t timestamp_ns;
-  int32_t keyframe_id;
-  unisim_sim3 T_kf_frame;
-};
-
 enum class Outcome {
   kFinished,
   kStopped,   ///< the stop flag was raised
@@ -55,16 +41,14 @@ struct Result {
   Outcome outcome = Outcome::kFinished;
   std::string message;  ///< one line unless kFinished
   Progress progress;
-  std::vector<LivePose> live;        ///< keyframes, with every_frame all frames, in order of time
-  std::vector<BetweenPose> between;  ///< with every_frame
-  std::vector<int64_t> keyframe_frames;  ///< frame index of each keyframe
   StageTimes times;
   unisim_predictor_info predictor{};
   int64_t heap_calls = -1;  ///< inside the library after create, -1: not counted
   double wall_s = 0.0;
 };
 
-/// One run. Everything it holds is bounded by its options, but for the poses in the result.
+/// One run. Everything it holds is bounded by its options and its configuration: what a run makes
+/// goes to the listeners.
 ///
 /// Threads: the source is read on a thread of its own, all else happens on the thread that calls
 /// run(). Without `realtime` the result depends on the inputs alone, not on timing.

@@ -125,6 +125,11 @@ unisim_status SessionClient::get_pose(int32_t keyframe_id, unisim_pose* pose) co
   return timed(&StageTimes::read, [&] { return unisim_get_pose(session_, keyframe_id, pose); });
 }
 
+unisim_status SessionClient::next_retired(unisim_retired* retired) {
+  *retired = sized<unisim_retired>();
+  return timed(&StageTimes::read, [&] { return unisim_next_retired(session_, retired); });
+}
+
 unisim_status SessionClient::get_info(unisim_session_info* info) const {
   *info = sized<unisim_session_info>();
   return timed(&StageTimes::read, [&] { return unisim_get_info(session_, info); });

@@ -46,6 +46,8 @@ class SessionClient {
 
   unisim_status next_request(uint32_t kinds, unisim_request* request) const;
   unisim_status get_pose(int32_t keyframe_id, unisim_pose* pose) const;
+  /// What has left the window, each once; UNISIM_ERR_NOT_READY when there is nothing new.
+  unisim_status next_retired(unisim_retired* retired);
   unisim_status get_info(unisim_session_info* info) const;
 
  private:

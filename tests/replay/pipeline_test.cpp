@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "drivers/pipeline/pose_book.hpp"
 #include "drivers/pipeline/similarity.hpp"
 #include "tests/replay/scripted_world.hpp"
 #include "tests/support/catch.hpp"
@@ -26,6 +27,12 @@ class Recorder : public Listener {
   void on_message(const std::string& line) override { lines.push_back(line); }
   void on_window(int32_t, const unisim_window_prediction&) override { ++windows; }
   void on_revision(int32_t, const unisim_window_revision&) override { ++revisions; }
+  void on_live_pose(const LivePose& pose) override { live.push_back(pose); }
+  void on_between_pose(const BetweenPose& pose) override { between.push_back(pose); }
+  void on_retired(const unisim_retired& one, const unisim_pose*) override {
+    retired += one.kind == UNISIM_RETIRED_KEYFRAME ? 1 : 0;
+    book.take(one);
+  }
 
   bool told(const std::string& part) const {
     for (const std::string& line : lines) {
@@ -37,6 +44,10 @@ class Recorder : public Listener {
   std::vector<std::string> lines;
   int windows = 0;
   int revisions = 0;
+  int retired = 0;
+  std::vector<LivePose> live;
+  std::vector<BetweenPose> between;
+  PoseBook book;
 };
 
 /// One run of 200 frames at stride 5 with everything a test may want to change.
@@ -110,9 +121,9 @@ TEST_CASE("exact predictions give the exact trajectory") {
   CHECK(run.info().posed_keyframes == 40);
   CHECK(run.listener.windows == run.info().submaps);
   CHECK(run.worst_error() < 1e-6);
-  REQUIRE(result.live.size() == 40);
+  REQUIRE(run.listener.live.size() == 40);
   for (size_t k = 0; k < 40; ++k) {
-    CHECK(Run::distance(result.live[k].T_world_cam, run.predictor.keyframes[k]) < 1e-6);
+    CHECK(Run::distance(run.listener.live[k].T_world_cam, run.predictor.keyframes[k]) < 1e-6);
   }
 }
 
@@ -127,7 +138,7 @@ TEST_CASE("poses come late, but all of them, while the predictor starts") {
   run.predictor.pending_until = 13;
   const Result& result = run.go();
   REQUIRE(result.outcome == Outcome::kFinished);
-  CHECK(result.live.size() == 40);
+  CHECK(run.listener.live.size() == 40);
   CHECK(run.info().posed_keyframes == 40);
   CHECK(run.worst_error() < 1e-6);
 }
@@ -137,7 +148,7 @@ TEST_CASE("a predictor that never starts leaves no poses and no error") {
   run.predictor.pending_until = 1000;
   const Result& result = run.go();
   CHECK(result.outcome == Outcome::kFinished);
-  CHECK(result.live.empty());
+  CHECK(run.listener.live.empty());
   CHECK(run.info().submaps == 0);
 }
 
@@ -280,11 +291,11 @@ TEST_CASE("two runs give the same bits, however the threads are timed") {
 TEST_CASE("frames between keyframes are posed when asked for") {
   Run run;
   run.options.every_frame = true;
-  const Result& result = run.go();
+  run.go();
   // Before the second keyframe there is no pair and no unit to pose them in.
-  CHECK(result.between.size() == 200 - 40 - 4);
-  CHECK(result.live.size() == 200 - 4);
-  for (const BetweenPose& between : result.between) {
+  CHECK(run.listener.between.size() == 200 - 40 - 4);
+  CHECK(run.listener.live.size() == 200 - 4);
+  for (const BetweenPose& between : run.listener.between) {
     const unisim_sim3 T = compose(run.pose(between.keyframe_id).T_world_kf, between.T_kf_frame);
     const int64_t frame = between.timestamp_ns / 33333333;
     REQUIRE(Run::distance(T, frame) < 1e-6);
@@ -331,6 +342,25 @@ TEST_CASE("wide windows correct what has left the sliding window, newer ones in 
   const double without = mean_error(0);
   const double with = mean_error(9);
   CHECK(with < 0.7 * without);
+}
+
+TEST_CASE("a bounded run gives out every keyframe, and each has its pose at the end") {
+  constexpr int32_t kKeyframes = 600;
+  Run run(5 * kKeyframes);
+  run.config.window_submaps = 2;
+  run.config.max_keyframes = (2 + 9) * run.config.window_size;
+  REQUIRE(run.go().outcome == Outcome::kFinished);
+  const unisim_session_info info = run.info();
+  CHECK(info.keyframes == kKeyframes);
+  CHECK(info.retired_unread == 0);
+  CHECK(run.listener.retired == info.retired_keyframes);
+  REQUIRE(info.first_keyframe > 400);
+  REQUIRE(info.retired_keyframes > 500);
+  for (int32_t k = 0; k < info.retired_keyframes; ++k) {
+    unisim_sim3 T{};
+    REQUIRE(run.listener.book.find(run.pipeline->session(), k, &T));
+    REQUIRE(Run::distance(T, run.predictor.keyframes[static_cast<size_t>(k)]) < 1e-5);
+  }
 }
 
 TEST_CASE("a realtime run drops the frames it is late for") {

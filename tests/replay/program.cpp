@@ -61,7 +61,7 @@ int wait_for(pid_t child, const Disturbance& disturbance, const std::string& out
     const Clock::duration elapsed = Clock::now() - start;
     if (!interrupted && time_to_interrupt(disturbance, elapsed, out)) {
       interrupted = true;
-      kill(child, SIGINT);
+      kill(child, disturbance.signal);
     }
     if (elapsed > std::chrono::seconds(kPatienceSeconds)) kill(child, SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));

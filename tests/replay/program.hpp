@@ -2,6 +2,7 @@
 // Runs the programs under test and keeps their files in a folder of its own.
 #pragma once
 
+#include <csignal>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,10 @@ struct ProgramResult {
 
 /// Limits and disturbances of a run.
 struct Disturbance {
-  double interrupt_after_s = -1.0;  ///< SIGINT then
-  std::string interrupt_on;         ///< SIGINT once this stands in the output
-  long max_file_bytes = -1;         ///< as on a full disk: larger files cannot be written
+  double interrupt_after_s = -1.0;  ///< the signal then
+  std::string interrupt_on;         ///< the signal once this stands in the output
+  int signal = SIGINT;
+  long max_file_bytes = -1;  ///< as on a full disk: larger files cannot be written
 };
 
 /// unisim-replay with these arguments.

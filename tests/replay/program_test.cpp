@@ -310,6 +310,50 @@ TEST_CASE("Ctrl-C writes what there is and says so") {
   CHECK(summary.at("outcome") == "interrupted");
 }
 
+TEST_CASE("a run that is killed leaves the live poses of all its frames but the last") {
+  Damaged sequence;
+  for (size_t k = 1; k < sequence.lines.size(); ++k) {
+    sequence.set_time(k, sequence.time(0) + 0.1 * static_cast<double>(k));
+  }
+  sequence.save_list();
+  const TempFolder folder;
+  const std::string out = folder / "out";
+  Disturbance disturbance;
+  disturbance.interrupt_on = "\"keyframes\":15";
+  disturbance.signal = SIGKILL;
+  const ProgramResult result = run_replay(
+      {sequence.path(), "--out", out, "--stride", "2", "--realtime", "--json"}, disturbance);
+  CHECK(result.code == 128 + SIGKILL);
+  const std::string text = read_file(out + "/trajectory_live.tum");
+  CHECK(text.back() == '\n');
+  CHECK(poses_in(out + "/trajectory_live.tum") >= 13);
+  std::vector<std::string> left;
+  for (const fs::directory_entry& entry : fs::directory_iterator(out)) {
+    left.push_back(entry.path().filename().string());
+  }
+  CHECK(left == std::vector<std::string>{"trajectory_live.tum"});
+}
+
+TEST_CASE("a bounded run that the session has forgotten in part writes every keyframe") {
+  const TempFolder folder;
+  const std::string out = folder / "out";
+  write_file(folder / "run.toml",
+             "[session]\nwindow_size = 4\nwindow_overlap = 2\nwindow_submaps = 2\n"
+             "max_keyframes = 44\n");
+  const ProgramResult result =
+      run_replay({rendered_sequence(), "--out", out, "--stride", "1", "--quiet", "--every-frame",
+                  "--no-report", "--config", folder / "run.toml"});
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  const nlohmann::json summary = nlohmann::json::parse(read_file(out + "/summary.json"));
+  CHECK(summary.at("keyframes") == 80);
+  CHECK(summary.at("coverage") == 1.0);
+  CHECK(summary.at("ate_rmse_m") < 0.05);
+  CHECK(poses_in(out + "/trajectory.tum") == 80);
+  CHECK(poses_in(out + "/trajectory_frames.tum") == 80);
+  CHECK(lines_in(read_file(out + "/keyframes.csv")) == 81);
+}
+
 TEST_CASE("a full disk is one line per file that is missing, no file is half there") {
   const TempFolder folder;
   const std::string out = folder / "out";

@@ -14,7 +14,7 @@
 
 using unisim::replay::Cloud;
 using unisim::replay::CloudOptions;
-using unisim::replay::CloudPoses;
+using unisim::replay::RunData;
 
 namespace {
 
@@ -99,9 +99,18 @@ struct TempFile {
   std::string path() const { return folder + "/map.ply"; }
 };
 
-std::vector<Vertex> fuse(const Cloud& cloud, const CloudPoses& poses, double k1 = 0.0) {
+/// What places the views: poses of the keyframes, scales of the submaps.
+struct Placing {
+  std::vector<unisim_pose> keyframes;
+  std::vector<double> submap_scale;
+};
+
+std::vector<Vertex> fuse(const Cloud& cloud, const Placing& placing, double k1 = 0.0) {
   const TempFile file;
-  const int64_t count = cloud.write(file.path(), poses, k1);
+  RunData run;
+  for (const unisim_pose& pose : placing.keyframes) run.keyframes.push_back({pose, 0, -1.0});
+  run.submap_scale = placing.submap_scale;
+  const int64_t count = cloud.write(file.path(), run, k1);
   std::vector<Vertex> vertices = read_ply(file.path());
   CHECK(count == static_cast<int64_t>(vertices.size()));
   return vertices;
@@ -225,6 +234,47 @@ TEST_CASE("a revision changes the depth of its submap alone") {
   const auto vertices = fuse(cloud, {{pose_of(0), pose_of(1)}, {1.0, 1.0}});
   CHECK(vertices.front().z == 2.0F);
   CHECK(vertices.back().z == 3.0F);
+}
+
+TEST_CASE("a keyframe that has left the window keeps the depth it had") {
+  const Picture picture;
+  const TempFile temporary;
+  Cloud cloud({}, temporary.folder);
+  for (int32_t id = 0; id < 2; ++id) {
+    cloud.on_keyframe(id, picture.frame);
+    cloud.on_window(id, Window(id).prediction);
+  }
+  unisim_retired retired{};
+  retired.keyframe_id = 0;
+  cloud.on_retired(retired, nullptr);
+  CHECK(cloud.views_in_memory() == 1);
+  const double ratio = std::log(1.5);
+  unisim_window_revision revision{};
+  revision.count = 1;
+  revision.log_depth_ratio = &ratio;
+  cloud.on_revision(0, revision);
+  cloud.on_revision(1, revision);
+  const auto vertices = fuse(cloud, {{pose_of(0), pose_of(1)}, {1.0, 1.0}});
+  REQUIRE(vertices.size() == size_t{2} * kColumns * kRows);
+  CHECK(vertices.front().z == 2.0F);
+  CHECK(vertices.back().z == 3.0F);
+}
+
+TEST_CASE("views in memory do not grow with the run, and none is lost") {
+  const Picture picture;
+  const TempFile temporary;
+  Cloud cloud({}, temporary.folder);
+  Placing placing;
+  constexpr int32_t kKeyframes = 2 * Cloud::kViewsInMemory;
+  for (int32_t id = 0; id < kKeyframes; ++id) {
+    cloud.on_keyframe(id, picture.frame);
+    cloud.on_window(id, Window(id).prediction);
+    CHECK(cloud.views_in_memory() <= Cloud::kViewsInMemory);
+    placing.keyframes.push_back(pose_of(id));
+    placing.submap_scale.push_back(1.0);
+  }
+  CHECK(std::filesystem::is_empty(temporary.folder));
+  CHECK(fuse(cloud, placing).size() == size_t{kKeyframes} * kColumns * kRows);
 }
 
 TEST_CASE("only the longest segment and supported poses give points") {

@@ -62,9 +62,9 @@ std::array<uint8_t, 3> mean_colour(const unisim_image& image, int x0, int x1, in
 }
 
 /// Segment with the most keyframes that have a pose.
-int32_t longest_segment(const std::vector<unisim_pose>& poses) {
+int32_t longest_segment(const std::vector<KeyframeRow>& rows) {
   std::map<int32_t, int> lengths;
-  for (const unisim_pose& pose : poses) lengths[pose.segment] += pose.confidence > 0 ? 1 : 0;
+  for (const KeyframeRow& row : rows) lengths[row.pose.segment] += row.pose.confidence > 0 ? 1 : 0;
   const auto longest =
       std::max_element(lengths.begin(), lengths.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -100,29 +100,9 @@ std::string ply_header(int64_t points, int32_t segment) {
 
 }  // namespace
 
-CloudPoses read_cloud_poses(const unisim_session* session) {
-  CloudPoses poses;
-  unisim_session_info info{};
-  info.struct_size = sizeof info;
-  if (unisim_get_info(session, &info) != UNISIM_OK) return poses;
-  for (int32_t id = 0; id < info.keyframes; ++id) {
-    unisim_pose pose{};
-    pose.struct_size = sizeof pose;
-    if (unisim_get_pose(session, id, &pose) == UNISIM_OK) poses.keyframes.push_back(pose);
-  }
-  for (int32_t id = 0; id < info.submaps + info.stretches + info.loops; ++id) {
-    unisim_submap_info submap{};
-    submap.struct_size = sizeof submap;
-    const bool known = unisim_get_submap(session, id, &submap) == UNISIM_OK;
-    poses.submap_scale.push_back(known ? submap.T_world_submap.s : 0.0);
-  }
-  return poses;
-}
-
 void Cloud::on_keyframe(int32_t id, const unisim_frame& frame) {
-  const auto at = static_cast<size_t>(id);
-  if (views_.size() <= at) views_.resize(at + 1);
-  View& view = views_[at];
+  while (!views_.empty() && views_.begin()->first <= id - kViewsInMemory) settle(views_.begin());
+  View& view = views_[id];
   const unisim_image& image = frame.image;
   view.width = image.width;
   view.height = image.height;
@@ -144,9 +124,9 @@ void Cloud::on_keyframe(int32_t id, const unisim_frame& frame) {
 void Cloud::on_window(int32_t submap_id, const unisim_window_prediction& window) {
   if (window.focal_px <= 0.0) return;
   for (int32_t k = 0; k < window.count; ++k) {
-    const auto id = static_cast<size_t>(window.keyframe_ids[k]);
-    if (id >= views_.size() || views_[id].width <= 0.0) continue;
-    View& view = views_[id];
+    const auto found = views_.find(window.keyframe_ids[k]);
+    if (found == views_.end() || found->second.width <= 0.0) continue;
+    View& view = found->second;
     const double sigma =
         window.center_sigma > 0.0 ? window.center_sigma : std::numeric_limits<double>::infinity();
     const double confidence = mean_confidence(window.depth[k]);
@@ -206,7 +186,7 @@ Cloud::Rgb Cloud::colour_at(const View& view, double x, double y) {
 }
 
 void Cloud::on_revision(int32_t submap_id, const unisim_window_revision& revision) {
-  for (View& view : views_) {
+  for (auto& [id, view] : views_) {
     if (view.submap_id != submap_id || view.index >= revision.count) continue;
     const double ratio = std::exp(revision.log_depth_ratio[view.index]);
     for (Point& point : view.points) {
@@ -216,23 +196,63 @@ void Cloud::on_revision(int32_t submap_id, const unisim_window_revision& revisio
   }
 }
 
-std::vector<Cloud::PlacedView> Cloud::place(const CloudPoses& poses, int32_t segment) const {
-  std::vector<PlacedView> placed;
-  for (const unisim_pose& pose : poses.keyframes) {
-    const auto id = static_cast<size_t>(pose.keyframe_id);
-    if (pose.confidence == 0 || pose.segment != segment || id >= views_.size()) continue;
-    const auto submap = static_cast<size_t>(views_[id].submap_id);
-    if (views_[id].submap_id < 0 || submap >= poses.submap_scale.size()) continue;
-    const double scale = poses.submap_scale[submap];
-    if (scale > 0.0) placed.push_back({&views_[id], &pose, scale});
-  }
-  return placed;
+/// The session measures a keyframe that has left its window no more.
+void Cloud::on_retired(const unisim_retired& retired, const unisim_pose* /*pose*/) {
+  const auto view = views_.find(retired.keyframe_id);
+  if (view != views_.end()) settle(view);
 }
 
-std::string Cloud::vertices(const PlacedView& placed, double radial_k1) {
+void Cloud::settle(std::map<int32_t, View>::iterator view) {
+  const std::vector<Point>& points = view->second.points;
+  if (!points.empty()) {
+    const SettledView head = {view->first, view->second.submap_id,
+                              static_cast<int64_t>(points.size())};
+    settled_.write(settled_.size(), &head, sizeof head);
+    settled_.write(settled_.size(), points.data(), points.size() * sizeof(Point));
+  }
+  views_.erase(view);
+}
+
+/// Calls each(placed) for the views of a segment that have a pose; points are not read where only
+/// their number is wanted.
+template <typename Each>
+void Cloud::for_each_placed(const RunData& poses, int32_t segment, bool with_points,
+                            Each each) const {
+  const auto place = [&](int32_t keyframe_id, int32_t submap_id, PlacedView* placed) {
+    const auto row =
+        std::lower_bound(poses.keyframes.begin(), poses.keyframes.end(), keyframe_id,
+                         [](const KeyframeRow& a, int32_t id) { return a.pose.keyframe_id < id; });
+    if (row == poses.keyframes.end() || row->pose.keyframe_id != keyframe_id) return false;
+    if (row->pose.confidence == 0 || row->pose.segment != segment) return false;
+    const auto submap = static_cast<size_t>(submap_id);
+    if (submap_id < 0 || submap >= poses.submap_scale.size()) return false;
+    placed->pose = &row->pose;
+    placed->scale = poses.submap_scale[submap];
+    return placed->scale > 0.0;
+  };
+  PlacedView placed{};
+  std::vector<Point> points;
+  placed.points = &points;
+  SettledView head{};
+  for (int64_t at = 0; settled_.read(at, &head, sizeof head);) {
+    const size_t bytes = static_cast<size_t>(head.points) * sizeof(Point);
+    points.resize(static_cast<size_t>(head.points));
+    if (place(head.keyframe_id, head.submap_id, &placed)) {
+      if (with_points) settled_.read(at + int64_t{sizeof head}, points.data(), bytes);
+      each(placed);
+    }
+    at += static_cast<int64_t>(sizeof head + bytes);
+  }
+  for (const auto& [id, view] : views_) {
+    placed.points = &view.points;
+    if (place(id, view.submap_id, &placed)) each(placed);
+  }
+}
+
+void Cloud::put_vertices(const PlacedView& placed, double radial_k1, std::ostream* file) {
   std::string bytes;
   const unisim_sim3& T_world_kf = placed.pose->T_world_kf;
-  for (const Point& point : placed.view->points) {
+  for (const Point& point : *placed.points) {
     const auto x = static_cast<double>(point.x);
     const auto y = static_cast<double>(point.y);
     const double z = static_cast<double>(point.depth) * placed.scale;
@@ -244,18 +264,20 @@ std::string Cloud::vertices(const PlacedView& placed, double radial_k1) {
     for (const uint8_t channel : point.colour) put(&bytes, channel);
     put(&bytes, point.confidence);
   }
-  return bytes;
+  *file << bytes;
 }
 
-int64_t Cloud::write(const std::filesystem::path& path, const CloudPoses& poses,
+int64_t Cloud::write(const std::filesystem::path& path, const RunData& poses,
                      double radial_k1) const {
   const int32_t segment = longest_segment(poses.keyframes);
-  const std::vector<PlacedView> placed = place(poses, segment);
   int64_t count = 0;
-  for (const PlacedView& view : placed) count += static_cast<int64_t>(view.view->points.size());
+  for_each_placed(poses, segment, false, [&](const PlacedView& placed) {
+    count += static_cast<int64_t>(placed.points->size());
+  });
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
   file << ply_header(count, segment);
-  for (const PlacedView& view : placed) file << vertices(view, radial_k1);
+  for_each_placed(poses, segment, true,
+                  [&](const PlacedView& placed) { put_vertices(placed, radial_k1, &file); });
   file.close();
   if (!file)
     throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(errno));

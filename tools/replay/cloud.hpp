@@ -5,11 +5,15 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "drivers/pipeline/listener.hpp"
+#include "drivers/pipeline/temporary_file.hpp"
+#include "tools/replay/run_data.hpp"
 #include "unisim/unisim.h"
 
 namespace unisim::replay {
@@ -24,33 +28,33 @@ struct CloudOptions {
 /// median on redkitchen), those across edges are not (4.5 % and more).
 constexpr double kGeometricConfidence = 0.3;
 
-/// Final poses that place the views.
-struct CloudPoses {
-  std::vector<unisim_pose> keyframes;
-  std::vector<double> submap_scale;  ///< by submap id: submap unit to the world, 0 not known
-};
-
-CloudPoses read_cloud_poses(const unisim_session* session);
-
-/// Gathers views while the run goes on. For each keyframe it keeps colours on a coarse grid and the
+/// Gathers views while the run goes on. For each keyframe it takes colours on a coarse grid and the
 /// depth of its most confident submap (least center_sigma; where that is not known the largest mean
-/// confidence), both at most kGridWidth cells wide: bounded for each keyframe.
+/// confidence), both at most kGridWidth cells wide. A view that no prediction will change any more
+/// goes to disk: memory does not grow with the length of the run.
 class Cloud : public pipeline::Listener {
  public:
   static constexpr int kGridWidth = 80;
+  /// Newest keyframes whose views are in memory. Predictors that revise their windows hold fewer.
+  static constexpr int32_t kViewsInMemory = 256;
 
-  explicit Cloud(const CloudOptions& options = {}) : options_(options) {}
+  /// @param folder for a temporary file, "" for memory
+  explicit Cloud(const CloudOptions& options = {}, const std::string& folder = "")
+      : options_(options), settled_(folder) {}
 
   /// Images give the colours; without pixels a view is grey.
   void on_keyframe(int32_t id, const unisim_frame& frame) override;
   void on_window(int32_t submap_id, const unisim_window_prediction& window) override;
   void on_revision(int32_t submap_id, const unisim_window_revision& revision) override;
+  void on_retired(const unisim_retired& retired, const unisim_pose* pose) override;
 
   /// Writes binary PLY: x y z float, red green blue uchar, confidence float, in the world of the
   /// poses. Of several segments only the longest: they have no common frame.
   /// @param radial_k1 of the predictor, 0 if none
   /// @return points written; throws std::runtime_error when the file cannot be written
-  int64_t write(const std::filesystem::path& path, const CloudPoses& poses, double radial_k1) const;
+  int64_t write(const std::filesystem::path& path, const RunData& poses, double radial_k1) const;
+
+  int32_t views_in_memory() const { return static_cast<int32_t>(views_.size()); }
 
  private:
   using Rgb = std::array<uint8_t, 3>;
@@ -76,20 +80,30 @@ class Cloud : public pipeline::Listener {
     std::vector<Point> points;
   };
 
+  /// Head of a view on disk; its points follow.
+  struct SettledView {
+    int32_t keyframe_id;
+    int32_t submap_id;
+    int64_t points;
+  };
+
   struct PlacedView {
-    const View* view;
+    const std::vector<Point>* points;
     const unisim_pose* pose;
     double scale;  // submap unit to the world
   };
 
-  std::vector<PlacedView> place(const CloudPoses& poses, int32_t segment) const;
-  static std::string vertices(const PlacedView& placed, double radial_k1);
+  void settle(std::map<int32_t, View>::iterator view);
+  template <typename Each>
+  void for_each_placed(const RunData& poses, int32_t segment, bool with_points, Each each) const;
+  static void put_vertices(const PlacedView& placed, double radial_k1, std::ostream* file);
   void take_depth(const unisim_depth_map& map, double focal_px, View* view) const;
   static Rgb colour_at(const View& view, double x, double y);
   float least_confidence(const unisim_depth_map& map, int step) const;
 
   CloudOptions options_;
-  std::vector<View> views_;  // by keyframe id
+  std::map<int32_t, View> views_;  // by keyframe id: those that may still change
+  pipeline::TemporaryFile settled_;
 };
 
 }  // namespace unisim::replay

@@ -100,6 +100,13 @@ void OutputFolder::write(const std::string& name,
   }
 }
 
+void OutputFolder::add(const std::string& path, const std::string& problem) {
+  if (problem.empty())
+    written_.push_back(path);
+  else
+    failures_.push_back(path + ": " + problem);
+}
+
 void OutputFolder::write_text(const std::string& name, const std::string& text) {
   write(name, [&](const fs::path& path) { write_all(path, text); });
 }

@@ -24,6 +24,9 @@ class OutputFolder {
   /// The same for text.
   void write_text(const std::string& name, const std::string& text);
 
+  /// Notes a file that was written as the run went on, or why part of it is missing.
+  void add(const std::string& path, const std::string& problem);
+
   std::string path_of(const std::string& name) const { return (path_ / name).string(); }
   const std::vector<std::string>& written() const { return written_; }
   const std::vector<std::string>& failures() const { return failures_; }

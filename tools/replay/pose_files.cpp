@@ -31,18 +31,27 @@ void append_seconds(std::string* text, int64_t time_ns) {
 
 }  // namespace
 
-std::string trajectory_text(const std::string& title, const std::vector<unisim_stamped_pose>& poses,
-                            double scale) {
+std::string trajectory_header(const std::string& title, double scale) {
   std::string text = "# " + title + "\n";
   text += "# timestamp [s] tx ty tz qx qy qz qw; camera-to-world, OpenCV axes\n";
   text += "# unit of length: arbitrary, one camera does not see scale\n";
   if (scale > 0.0) append(&text, "# aligned with ground truth, 1 unit = %.9g m\n", scale);
-  for (const unisim_stamped_pose& pose : poses) {
-    const unisim_sim3& T = pose.T_world_cam;
-    append_seconds(&text, pose.timestamp_ns);
-    append(&text, " %.10g %.10g %.10g %.10g %.10g %.10g %.10g\n", T.t[0], T.t[1], T.t[2], T.q[0],
-           T.q[1], T.q[2], T.q[3]);
-  }
+  return text;
+}
+
+std::string trajectory_line(const unisim_stamped_pose& pose) {
+  const unisim_sim3& T = pose.T_world_cam;
+  std::string text;
+  append_seconds(&text, pose.timestamp_ns);
+  append(&text, " %.10g %.10g %.10g %.10g %.10g %.10g %.10g\n", T.t[0], T.t[1], T.t[2], T.q[0],
+         T.q[1], T.q[2], T.q[3]);
+  return text;
+}
+
+std::string trajectory_text(const std::string& title, const std::vector<unisim_stamped_pose>& poses,
+                            double scale) {
+  std::string text = trajectory_header(title, scale);
+  for (const unisim_stamped_pose& pose : poses) text += trajectory_line(pose);
   return text;
 }
 

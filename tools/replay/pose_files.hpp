@@ -9,9 +9,15 @@
 
 namespace unisim::replay {
 
-/// TUM format: timestamp [s] tx ty tz qx qy qz qw, camera-to-world, comments first.
+/// Comments at the head of a trajectory.
 /// @param title what the poses are
 /// @param scale metres per unit found by alignment with ground truth, <= 0: not known
+std::string trajectory_header(const std::string& title, double scale);
+
+/// One pose in TUM format.
+std::string trajectory_line(const unisim_stamped_pose& pose);
+
+/// TUM format: timestamp [s] tx ty tz qx qy qz qw, camera-to-world, comments first.
 std::string trajectory_text(const std::string& title, const std::vector<unisim_stamped_pose>& poses,
                             double scale);
 

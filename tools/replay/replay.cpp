@@ -13,12 +13,14 @@
 #include "tools/common/output.hpp"
 #include "tools/replay/cloud.hpp"
 #include "tools/replay/inputs.hpp"
+#include "tools/replay/live_trajectory.hpp"
 #include "tools/replay/output_folder.hpp"
 #include "tools/replay/page.hpp"
 #include "tools/replay/pose_files.hpp"
 #include "tools/replay/progress_line.hpp"
 #include "tools/replay/report/report.hpp"
 #include "tools/replay/run_data.hpp"
+#include "tools/replay/run_record.hpp"
 #include "tools/replay/scores.hpp"
 #include "tools/replay/summary.hpp"
 
@@ -60,9 +62,9 @@ CloudOptions cloud_options(const unisim_predictor* predictor) {
 }
 
 /// The map is drawn in the frame of trajectory.tum.
-void write_map(const Run& run, const Cloud& cloud, const CloudPoses& poses, OutputFolder* folder) {
+void write_map(const Run& run, const Cloud& cloud, OutputFolder* folder) {
   folder->write("map.ply", [&](const std::filesystem::path& path) {
-    cloud.write(path, poses, run.result.predictor.radial_k1);
+    cloud.write(path, run.data, run.result.predictor.radial_k1);
   });
 }
 
@@ -118,8 +120,6 @@ void write_files(const Run& run, OutputFolder* folder) {
   const double scale = run.scores.ate ? run.scores.ate->T_truth_estimate.s : 0.0;
   folder->write_text("trajectory.tum",
                      trajectory_text("keyframes, final poses", run.data.trajectory, scale));
-  folder->write_text("trajectory_live.tum",
-                     trajectory_text("poses as first given out", run.data.live, 0.0));
   if (run.options.settings.pipeline.every_frame) {
     folder->write_text("trajectory_frames.tum",
                        trajectory_text("all frames, final poses", run.data.frames, scale));
@@ -176,21 +176,24 @@ int replay(const Options& options, const std::atomic<bool>& stop) {
   for (const std::string& note : notes) {
     if (!note.empty()) progress.on_message(note);
   }
-  Cloud cloud(cloud_options(predictor.get()));
+  RunRecord record(options.out);
+  LiveTrajectory live(folder.path_of("trajectory_live.tum"));
+  Cloud cloud(cloud_options(predictor.get()), options.out);
   pipeline::Options how = options.settings.pipeline;
   how.decode_images = true;  // the map has colours, also where the predictor needs no images
-  pipeline::Pipeline pipeline(how, source.get(), predictor.get(), config, {&progress, &cloud},
-                              &stop, tools::heap_counter());
+  pipeline::Pipeline pipeline(how, source.get(), predictor.get(), config,
+                              {&progress, &record, &live, &cloud}, &stop, tools::heap_counter());
   prepare(&pipeline);
   const pipeline::Result& result = pipeline.run();
   progress.finish();
 
-  const RunData data = collect(pipeline.session(), result, options.settings.pipeline.every_frame);
+  const RunData data = collect(pipeline.session(), record, options.settings.pipeline.every_frame);
   if (data.trajectory.empty()) return report_nothing(result, options);
   const Scores scores = score(truth, data);
   const Run run = {options, result, data, truth, scores, source->format};
+  folder.add(live.path(), live.problem());
   write_files(run, &folder);
-  write_map(run, cloud, read_cloud_poses(pipeline.session()), &folder);
+  write_map(run, cloud, &folder);
   write_page(run, progress.messages(), &folder);
   print_result(run, folder);
   return conclude(run, folder, recorder_problem(options, predictor.get()));

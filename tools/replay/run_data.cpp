@@ -5,23 +5,9 @@
 #include <algorithm>
 
 #include "drivers/pipeline/similarity.hpp"
-#include "tools/common/failure.hpp"
 
 namespace unisim::replay {
 namespace {
-
-std::vector<unisim_pose> read_poses(const unisim_session* session, int32_t keyframes) {
-  std::vector<unisim_pose> poses(static_cast<size_t>(std::max(keyframes, 1)));
-  for (unisim_pose& pose : poses) pose.struct_size = sizeof pose;
-  size_t count = 0;
-  const unisim_status status = unisim_get_trajectory(session, poses.data(), poses.size(), &count);
-  if (status != UNISIM_OK) {
-    throw tools::Failure(tools::kExitOther,
-                         std::string("reading the trajectory: ") + unisim_status_string(status));
-  }
-  poses.resize(count);
-  return poses;
-}
 
 double covariance_trace(unisim_session* session, int32_t keyframe) {
   double covariance[49];
@@ -31,9 +17,10 @@ double covariance_trace(unisim_session* session, int32_t keyframe) {
   return trace;
 }
 
-void add_between(const pipeline::Result& result, RunData* data) {
+void add_between(const RunRecord& record, RunData* data) {
   data->frames = data->trajectory;
-  for (const pipeline::BetweenPose& between : result.between) {
+  for (int64_t k = 0; k < record.between().size(); ++k) {
+    const pipeline::BetweenPose between = record.between().get(k);
     const auto row =
         std::lower_bound(data->keyframes.begin(), data->keyframes.end(), between.keyframe_id,
                          [](const KeyframeRow& a, int32_t id) { return a.pose.keyframe_id < id; });
@@ -47,21 +34,29 @@ void add_between(const pipeline::Result& result, RunData* data) {
             });
 }
 
+void add_submaps(const unisim_session* session, const RunRecord& record, RunData* data) {
+  for (int32_t id = 0; id < record.submaps(); ++id) {
+    unisim_sim3 T_world_submap{};
+    const bool known = record.book().find_submap(session, id, &T_world_submap);
+    data->submap_scale.push_back(known ? T_world_submap.s : 0.0);
+  }
+}
+
 }  // namespace
 
-RunData collect(unisim_session* session, const pipeline::Result& result, bool every_frame) {
+RunData collect(unisim_session* session, const RunRecord& record, bool every_frame) {
   RunData data;
   data.session.struct_size = sizeof data.session;
   if (unisim_get_info(session, &data.session) != UNISIM_OK) return data;
-  for (const unisim_pose& pose : read_poses(session, data.session.keyframes)) {
-    const int64_t frame = result.keyframe_frames.at(static_cast<size_t>(pose.keyframe_id));
-    data.keyframes.push_back({pose, frame, covariance_trace(session, pose.keyframe_id)});
+  for (int32_t id = 0; id < data.session.keyframes; ++id) {
+    unisim_pose pose;
+    if (!record.find(session, id, &pose)) continue;
+    data.keyframes.push_back({pose, record.frame_of(id), covariance_trace(session, id)});
     if (pose.confidence > 0) data.trajectory.push_back({pose.timestamp_ns, pose.T_world_kf});
   }
-  for (const pipeline::LivePose& live : result.live) {
-    data.live.push_back({live.timestamp_ns, live.T_world_cam});
-  }
-  if (every_frame) add_between(result, &data);
+  for (int64_t k = 0; k < record.live().size(); ++k) data.live.push_back(record.live().get(k));
+  if (every_frame) add_between(record, &data);
+  add_submaps(session, record, &data);
   return data;
 }
 

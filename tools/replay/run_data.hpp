@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What a finished run is known by: copied out of session and pipeline once, then only read.
+// What a finished run is known by: copied out of session and record once, then only read.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "drivers/pipeline/pipeline.hpp"
 #include "drivers/source.h"
+#include "tools/replay/run_record.hpp"
 #include "unisim/unisim.h"
 
 namespace unisim::replay {
@@ -22,10 +22,11 @@ struct RunData {
   std::vector<unisim_stamped_pose> trajectory;  ///< keyframes whose pose a prediction supports
   std::vector<unisim_stamped_pose> live;        ///< as first given out
   std::vector<unisim_stamped_pose> frames;      ///< all frames, with every_frame
+  std::vector<double> submap_scale;  ///< by submap id: its unit to the world, 0 not known
   unisim_session_info session{};
 };
 
-/// Reads everything out of the session.
-RunData collect(unisim_session* session, const pipeline::Result& result, bool every_frame);
+/// Reads everything out of the session and of the record of its run.
+RunData collect(unisim_session* session, const RunRecord& record, bool every_frame);
 
 }  // namespace unisim::replay

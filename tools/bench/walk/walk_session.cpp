@@ -128,6 +128,12 @@ void WalkSession::optimize(int32_t iterations) {
   expect_ok(unisim_optimize(session_, &budget, nullptr), "unisim_optimize");
 }
 
+void WalkSession::read_retired() {
+  unisim_retired retired{};
+  retired.struct_size = sizeof retired;
+  while (unisim_next_retired(session_, &retired) == UNISIM_OK) book_.take(retired);
+}
+
 Eigen::Vector3d WalkSession::position(int32_t keyframe) const {
   unisim_pose pose{};
   pose.struct_size = sizeof pose;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "drivers/pipeline/heap_watch.hpp"
+#include "drivers/pipeline/pose_book.hpp"
 #include "tools/bench/simulator/predictor.hpp"
-#include "tools/bench/walk/pose_book.hpp"
 #include "unisim/unisim.h"
 
 namespace unisim::bench {
@@ -37,7 +37,7 @@ class WalkSession {
   bool add_loop(const simulator::Prediction& loop);
   void optimize(int32_t iterations);
   /// Take what has left the window, to know its position for ever.
-  void read_retired() { book_.read(session_); }
+  void read_retired();
   Eigen::Vector3d position(int32_t keyframe) const;
   unisim_session_info info() const;
 
@@ -49,7 +49,7 @@ class WalkSession {
   size_t depth_bytes_ = 0;
   unisim_session* session_ = nullptr;
   const pipeline::HeapWatch& heap_;
-  PoseBook book_;
+  pipeline::PoseBook book_;
   int64_t keyframes_ = 0;
   std::vector<unisim_sim3> poses_;
   std::vector<unisim_depth_map> maps_;
