@@ -202,9 +202,15 @@ class Session {
   void measure_views(const SubmapInput& input, bool is_loop, Submap* submap);
   void measure_view(const DepthMap& depth, bool may_adopt, bool may_share, SubmapView* view);
   bool choose_origin(Submap* submap);
-  bool judge_submap(Submap* submap, int32_t id);
+  bool judge_submap(Submap* submap);
+  bool is_in_range(const Submap& submap) const;
+  void begin_refusal(const Submap& submap, LogLine* line) const;
   void refuse_submap(bool is_loop);
   void place_submap(Submap* submap);
+  Sim3 first_pose(const Submap& submap) const;
+  const SubmapView& joining_view(const Submap& submap, int32_t segment) const;
+  Sim3 join_correction(const SubmapView& view, const Sim3& T_world_submap) const;
+  bool joins_in_range(const Submap& submap, const Sim3& T_world_submap, int32_t segment) const;
   void join_segment(const Submap& submap, int32_t segment, int32_t into);
   void adopt_views(const SubmapInput& input, const Submap& submap);
   void move_retired(int32_t segment, const Sim3& correction);
@@ -215,6 +221,7 @@ class Session {
   void add_scale_edge(int32_t m, int32_t n);
   void keep_shared_depth(const SubmapInput& input, int32_t id, const Window& window);
   void count_cover(int32_t id);
+  bool is_in_range(const SubmapUpdate& update, const Submap& submap) const;
   void update_views(const SubmapUpdate& update, Submap* submap);
   void set_bridge_measurement(const SubmapView& view);
   void update_shared(const SubmapUpdate& update);

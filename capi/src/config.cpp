@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Configuration: defaults, ranges, sizes.
 #include <cmath>
-#include <cstring>
 
 #include "capi/src/read_write.hpp"
 #include "capi/src/struct_size.hpp"
@@ -118,10 +117,7 @@ using unisim::SessionConfig;
 
 unisim_status unisim_config_init(unisim_config* config, size_t struct_size) {
   if (config == nullptr) return UNISIM_ERR_INVALID_ARGUMENT;
-  if (struct_size < unisim::FirstSize<unisim_config>::kBytes || struct_size > UINT32_MAX) {
-    return UNISIM_ERR_ABI_MISMATCH;
-  }
-  std::memset(config, 0, struct_size);
+  if (!unisim::is_size_of<unisim_config>(struct_size)) return UNISIM_ERR_ABI_MISMATCH;
   unisim::write_struct(unisim::defaults(), struct_size, config);
   return UNISIM_OK;
 }
@@ -130,8 +126,11 @@ unisim_status unisim_arena_size(const unisim_config* config, size_t* size) {
   if (size == nullptr) return UNISIM_ERR_INVALID_ARGUMENT;
   SessionConfig checked;
   const unisim_status status = unisim::read_config(config, &checked);
-  if (status == UNISIM_OK) *size = unisim::Session::measure(checked).required_bytes();
-  return status;
+  if (status != UNISIM_OK) return status;
+  const Arena arena = unisim::Session::measure(checked);
+  if (!arena.ok()) return UNISIM_ERR_OUT_OF_MEMORY;
+  *size = arena.required_bytes();
+  return UNISIM_OK;
 }
 
 unisim_status unisim_arena_parts(const unisim_config* config, unisim_arena_part* parts,
@@ -141,6 +140,7 @@ unisim_status unisim_arena_parts(const unisim_config* config, unisim_arena_part*
   const unisim_status status = unisim::read_config(config, &checked);
   if (status != UNISIM_OK) return status;
   const Arena arena = unisim::Session::measure(checked);
+  if (!arena.ok()) return UNISIM_ERR_OUT_OF_MEMORY;
   const auto named = static_cast<size_t>(arena.parts().size());
   *count = named + 1;
   if (capacity < *count) return UNISIM_ERR_CAPACITY;

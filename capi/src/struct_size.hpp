@@ -69,6 +69,15 @@ struct FirstSize<unisim_session_info> {
 
 #undef UNISIM_FIRST_SIZE
 
+/// No header will ever have a larger struct: such a size is memory that nobody has set.
+inline constexpr size_t kLargestStruct = 65536;
+
+/// Is this a size that the first or any later header may have?
+template <class T>
+bool is_size_of(size_t size) {
+  return size >= FirstSize<T>::kBytes && size <= kLargestStruct;
+}
+
 /// struct_size, the first field of every versioned struct.
 inline uint32_t struct_size_of(const void* user) {
   uint32_t size = 0;
@@ -89,7 +98,7 @@ template <class T>
 unisim_status read_struct(const T* user, T* ours) {
   if (user == nullptr) return UNISIM_ERR_INVALID_ARGUMENT;
   const size_t size = struct_size_of(user);
-  if (size < FirstSize<T>::kBytes) return UNISIM_ERR_ABI_MISMATCH;
+  if (!is_size_of<T>(size)) return UNISIM_ERR_ABI_MISMATCH;
   const auto* bytes = reinterpret_cast<const unsigned char*>(user);
   if (size > sizeof(T) && !all_zero(bytes + sizeof(T), size - sizeof(T))) {
     return UNISIM_ERR_ABI_MISMATCH;
@@ -103,14 +112,16 @@ unisim_status read_struct(const T* user, T* ours) {
 template <class T>
 unisim_status check_output(const T* user) {
   if (user == nullptr) return UNISIM_ERR_INVALID_ARGUMENT;
-  return struct_size_of(user) < FirstSize<T>::kBytes ? UNISIM_ERR_ABI_MISMATCH : UNISIM_OK;
+  return is_size_of<T>(struct_size_of(user)) ? UNISIM_OK : UNISIM_ERR_ABI_MISMATCH;
 }
 
-/// Copy results to the caller's struct of `size` bytes, which check_output() has passed.
+/// Copy results to the caller's struct of `size` bytes, which check_output() has passed. A tail that
+/// this library does not know is zeroed: to its reader zero means "as before".
 template <class T>
 void write_struct(T ours, size_t size, void* user) {
   ours.struct_size = static_cast<uint32_t>(size);
   std::memcpy(user, &ours, size < sizeof(T) ? size : sizeof(T));
+  if (size > sizeof(T)) std::memset(static_cast<char*>(user) + sizeof(T), 0, size - sizeof(T));
 }
 
 }  // namespace unisim

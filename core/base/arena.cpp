@@ -30,11 +30,17 @@ void Arena::begin_part(const char* name) {
   part_ = part_count_++;
 }
 
-void* Arena::take_bytes(size_t bytes) {
-  const size_t padded = (bytes + kAlignment - 1) / kAlignment * kAlignment;
+void* Arena::take_bytes(size_t count, size_t size) {
+  size_t padded = 0;
   const size_t start = used_;
-  used_ += padded;
-  if (part_ >= 0) parts_[part_].bytes += padded;
+  const bool addressable = !__builtin_mul_overflow(count, size, &padded) &&
+                           !__builtin_add_overflow(padded, kAlignment - 1, &padded) &&
+                           !__builtin_add_overflow(used_, padded / kAlignment * kAlignment, &used_);
+  if (!addressable) {
+    used_ = SIZE_MAX;
+    ok_ = false;
+  }
+  if (part_ >= 0) parts_[part_].bytes += used_ - start;
   if (memory_ == nullptr) return nullptr;
   if (used_ > capacity_) ok_ = false;
   return ok_ ? memory_ + start : nullptr;

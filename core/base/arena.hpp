@@ -22,7 +22,9 @@ struct ArenaPart {
 /// Without memory behind it ("dry") it only counts: run the layout code on a dry arena to learn the
 /// bytes, then on a real one. Arrays of a dry arena have their length and a null pointer: layout
 /// code may store them but not touch elements. When the memory runs out, ok() turns false, the
-/// counting goes on and arrays are as in a dry arena.
+/// counting goes on and arrays are as in a dry arena. A layout of more bytes than can be addressed
+/// (on a 32-bit machine a legal configuration gets there) counts as SIZE_MAX bytes and is not ok,
+/// dry or not.
 class Arena {
  public:
   static constexpr size_t kAlignment = 64;  ///< of every array
@@ -42,7 +44,7 @@ class Arena {
     static_assert(std::is_trivially_destructible_v<T>, "nothing runs destructors in an arena");
     static_assert(alignof(T) <= kAlignment, "over-aligned type");
     UNISIM_CHECK(count >= 0);
-    void* place = take_bytes(sizeof(T) * static_cast<size_t>(count));
+    void* place = take_bytes(static_cast<size_t>(count), sizeof(T));
     T* data = static_cast<T*>(place);
     if (data != nullptr) {
       for (int32_t i = 0; i < count; ++i) ::new (static_cast<void*>(data + i)) T();
@@ -55,11 +57,14 @@ class Arena {
   /// Bytes of all arrays so far.
   size_t used_bytes() const { return used_; }
   /// Bytes to hand to the other constructor for the same layout at any alignment of the memory.
-  size_t required_bytes() const { return used_ == 0 ? 0 : used_ + kAlignment - 1; }
+  size_t required_bytes() const {
+    if (used_ == 0) return 0;
+    return used_ > SIZE_MAX - (kAlignment - 1) ? SIZE_MAX : used_ + kAlignment - 1;
+  }
   Span<const ArenaPart> parts() const { return {parts_, part_count_}; }
 
  private:
-  void* take_bytes(size_t bytes);
+  void* take_bytes(size_t count, size_t size);
 
   unsigned char* memory_ = nullptr;
   size_t capacity_ = 0;

@@ -13,5 +13,6 @@ float nth_element(Span<float> values, int32_t k);
 /// Median; the mean of the two middle values for an even count. Reorders `values`, which has at
 /// least one element.
 double median(Span<float> values);
+double median(Span<double> values);
 
 }  // namespace unisim

@@ -98,6 +98,11 @@ bool Sim3::valid() const {
   return std::isfinite(s) && s > 0.0 && t.allFinite() && std::abs(q.squaredNorm() - 1.0) < 2e-6;
 }
 
+bool Sim3::in_range() const {
+  constexpr double kLargest = 1e30;  // no camera sees thirty orders of magnitude
+  return valid() && s <= kLargest && s >= 1.0 / kLargest && t.cwiseAbs().maxCoeff() <= kLargest;
+}
+
 Sim3 operator*(const Sim3& a, const Sim3& b) {
   Sim3 out;
   out.q = drawn_to_unit(a.q * b.q);

@@ -20,6 +20,9 @@ struct Sim3 {
   Vec3 act(const Vec3& p) const;
   /// Entries finite, scale positive, quaternion of length 1 within 1e-6.
   bool valid() const;
+  /// Valid, and lengths so far from the ends of the range of numbers that products of several such
+  /// transforms and their inverses are valid too.
+  bool in_range() const;
 };
 static_assert(sizeof(Sim3) == 64, "one cache line");
 

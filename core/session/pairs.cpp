@@ -86,9 +86,9 @@ Status Session::add_two_view(const TwoViewInput& input) {
   // Depth that leaps by many orders of magnitude, again and again, leaves the range of numbers.
   const int32_t source = keyframes_.pose_source(input.i);
   const Sim3 T_world_i = source >= 0 ? keyframe_pose(source) : Sim3();
-  const Sim3 unit = Sim3::scaling(std::exp(log_ratio));
-  const bool in_range = (T_world_i * unit * input.T_i_j).valid() && (unit * input.T_i_j).valid() &&
-                        (T_world_i * input.T_i_j).valid();
+  const Sim3 Z_i_j = two_view_measurement(input.T_i_j, math::exp(log_ratio));
+  const bool in_range = Z_i_j.in_range() && (T_world_i * Z_i_j).in_range() &&
+                        (T_world_i * input.T_i_j).in_range();
   if (!in_range) {
     LogLine line;
     line << "pair " << input.i << "," << input.j << " refused: its scale is out of range";

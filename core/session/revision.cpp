@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/math.hpp"
+#include "core/graph/bridge.hpp"
 #include "core/session.hpp"
 
 namespace unisim {
@@ -15,6 +16,7 @@ Status Session::update_submap(const SubmapUpdate& update) {
     return Status::kInvalidArgument;
   }
   if (submap.retired || submap.removed) return Status::kOk;
+  if (!is_in_range(update, submap)) return Status::kInvalidArgument;
   const double gate = submap.is_loop ? config_.sigma_gate_loop : config_.sigma_gate;
   if (update.center_sigma > gate) {
     LogLine line;
@@ -32,6 +34,25 @@ Status Session::update_submap(const SubmapUpdate& update) {
   update_views(update, &submap);
   update_shared(update);
   return broken_ ? Status::kInternal : Status::kOk;
+}
+
+/// Ratios that only grow, update after update, leave the range of numbers.
+bool Session::is_in_range(const SubmapUpdate& update, const Submap& submap) const {
+  const double unit = math::exp(-update.log_depth_ratio[submap.origin]);
+  if (!(graph_.pose(submap.node) * Sim3::scaling(unit)).in_range()) return false;
+  const Sim3 T_origin = update.T_submap_kf[submap.origin];
+  for (int32_t k = 0; k < submap.count; ++k) {
+    const double rho = math::exp(submaps_.view(submap, k).log_rho + update.log_depth_ratio[k]);
+    const Sim3 T_submap_kf = between(T_origin, update.T_submap_kf[k]);
+    if (!bridge_measurement(T_submap_kf, rho).in_range()) return false;
+  }
+  for (const SharedKeyframe& shared : submaps_.shared()) {
+    double log_c = shared.log_c;
+    if (shared.m == submap.id) log_c += update.log_depth_ratio[shared.view_m];
+    if (shared.n == submap.id) log_c -= update.log_depth_ratio[shared.view_n];
+    if (!Sim3::scaling(math::exp(log_c)).in_range()) return false;
+  }
+  return true;
 }
 
 void Session::update_views(const SubmapUpdate& update, Submap* submap) {

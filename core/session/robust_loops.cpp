@@ -70,13 +70,13 @@ double Session::loop_norm(const Submap& loop) const {
   const int32_t split = split_view(loop);
   double worst = 0.0;
   for (const int32_t half : {0, 1}) {
-    float norms[kMaxViews];
+    double norms[kMaxViews];
     int32_t count = 0;
     for (int32_t k = half == 0 ? 0 : split; k < (half == 0 ? split : loop.count); ++k) {
       const int32_t bridge = submaps_.view(loop, k).bridge;
-      if (bridge >= 0) norms[count++] = static_cast<float>(graph_.edge_norm(bridge));
+      if (bridge >= 0) norms[count++] = graph_.edge_norm(bridge);
     }
-    if (count > 0) worst = std::max(worst, static_cast<double>(median({norms, count})));
+    if (count > 0) worst = std::max(worst, median({norms, count}));
   }
   return worst;
 }

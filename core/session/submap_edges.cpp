@@ -106,10 +106,10 @@ void Session::add_scale_edge(int32_t m, int32_t n) {
 }
 
 double Session::median_log_c(int32_t m, int32_t n) {
-  float values[kMaxViews];
+  double values[kMaxViews];
   int32_t count = 0;
   for (const SharedKeyframe& shared : submaps_.shared()) {
-    if (shared.m == m && shared.n == n) values[count++] = static_cast<float>(shared.log_c);
+    if (shared.m == m && shared.n == n) values[count++] = shared.log_c;
   }
   return median({values, count});
 }

@@ -45,7 +45,7 @@ Status Session::add_submap(const SubmapInput& input, bool is_loop, int32_t* id) 
   submap.window_last = answered.last();
   submap.center_sigma = input.center_sigma;
   measure_views(input, is_loop, &submap);
-  if (!choose_origin(&submap) || !judge_submap(&submap, made)) {
+  if (!choose_origin(&submap) || !judge_submap(&submap) || !is_in_range(submap)) {
     submaps_.remove_last();
     refuse_submap(is_loop);
     *id = -1;
@@ -68,7 +68,7 @@ Status Session::add_submap(const SubmapInput& input, bool is_loop, int32_t* id) 
 }
 
 void Session::measure_views(const SubmapInput& input, bool is_loop, Submap* submap) {
-  float scatters[kMaxViews];
+  double scatters[kMaxViews];
   int32_t measured = 0;
   for (int32_t k = 0; k < submap->count; ++k) {
     SubmapView& view = submaps_.view(*submap, k);
@@ -76,7 +76,7 @@ void Session::measure_views(const SubmapInput& input, bool is_loop, Submap* subm
     view.segment = keyframes_[view.keyframe].posed() ? keyframes_[view.keyframe].segment : -1;
     view.T_submap_kf = input.T_submap_kf[k];
     measure_view(input.depth[k], !is_loop, !is_loop, &view);
-    if (view.measured) scatters[measured++] = static_cast<float>(view.scatter);
+    if (view.measured) scatters[measured++] = view.scatter;
   }
   submap->scatter = measured > 0 ? median({scatters, measured}) : 0.0;
 }
@@ -130,7 +130,7 @@ bool Session::choose_origin(Submap* submap) {
   return true;
 }
 
-bool Session::judge_submap(Submap* submap, int32_t id) {
+bool Session::judge_submap(Submap* submap) {
   const bool known = submap->center_sigma > 0.0;
   const double sigma_gate = submap->is_loop ? config_.sigma_gate_loop : config_.sigma_gate;
   const double value = known ? submap->center_sigma : submap->scatter;
@@ -138,11 +138,33 @@ bool Session::judge_submap(Submap* submap, int32_t id) {
   submap->multiplier = quality_multiplier(submap->center_sigma);
   if (value <= gate) return true;
   LogLine line;
-  line << (submap->is_loop ? "loop" : "window") << " of keyframes "
-       << submaps_.view(submaps_[id], 0).keyframe << ".."
-       << submaps_.view(submaps_[id], submap->count - 1).keyframe
-       << " refused: " << (known ? "center sigma " : "depth ratio scatter ") << value << " over "
-       << gate;
+  begin_refusal(*submap, &line);
+  line << (known ? "center sigma " : "depth ratio scatter ") << value << " over " << gate;
+  line.send(config_.log, LogLevel::kWarning);
+  return false;
+}
+
+void Session::begin_refusal(const Submap& submap, LogLine* line) const {
+  *line << (submap.is_loop ? "loop" : "window") << " of keyframes " << submaps_.keyframe(submap, 0)
+        << ".." << submaps_.keyframe(submap, submap.count - 1) << " refused: ";
+}
+
+/// Depth that leaps by many orders of magnitude, again and again, leaves the range of numbers.
+bool Session::is_in_range(const Submap& submap) const {
+  const Sim3 T_world_submap = first_pose(submap);
+  bool in_range = T_world_submap.in_range();
+  for (int32_t k = 0; in_range && k < submap.count; ++k) {
+    const SubmapView& view = submaps_.view(submap, k);
+    if (!view.used) continue;
+    const Sim3 Z_m_i = bridge_measurement(view.T_submap_kf, math::exp(view.log_rho));
+    in_range = Z_m_i.in_range() && (T_world_submap * Z_m_i).in_range() &&
+               Sim3::scaling(math::exp(view.log_c)).in_range();
+    if (in_range && view.measured) in_range = joins_in_range(submap, T_world_submap, view.segment);
+  }
+  if (in_range) return true;
+  LogLine line;
+  begin_refusal(submap, &line);
+  line << "its scale is out of range";
   line.send(config_.log, LogLevel::kWarning);
   return false;
 }
@@ -151,12 +173,16 @@ void Session::refuse_submap(bool is_loop) {
   ++(is_loop ? counts_.loops_refused : counts_.submaps_refused);
 }
 
-/// S_m = [(s_o / rho_mo) R_o, t_o] of its origin; segments its other views belong to follow.
+/// S_m = [(s_o / rho_mo) R_o, t_o] of its origin.
+Sim3 Session::first_pose(const Submap& submap) const {
+  const SubmapView& origin = submaps_.view(submap, submap.origin);
+  return keyframe_pose(origin.keyframe) * Sim3::scaling(math::exp(-origin.log_rho));
+}
+
+/// Segments that its other views belong to follow.
 void Session::place_submap(Submap* submap) {
   const SubmapView& origin = submaps_.view(*submap, submap->origin);
-  const Sim3 T_world_origin = keyframe_pose(origin.keyframe);
-  const Sim3 T_world_submap = T_world_origin * Sim3::scaling(math::exp(-origin.log_rho));
-  if (!holds(graph_.add_node(NodeKind::kSubmap, T_world_submap, &submap->node))) return;
+  if (!holds(graph_.add_node(NodeKind::kSubmap, first_pose(*submap), &submap->node))) return;
   for (int32_t k = 0; k < submap->count; ++k) {
     const SubmapView& view = submaps_.view(*submap, k);
     if (view.measured && keyframes_[view.keyframe].segment != origin.segment) {
@@ -167,9 +193,8 @@ void Session::place_submap(Submap* submap) {
   }
 }
 
-/// Move a segment as a whole so that its view nearest to the submap's centre lies where the submap
-/// sees it.
-void Session::join_segment(const Submap& submap, int32_t segment, int32_t into) {
+/// View by which a submap joins a segment to its own: the one nearest to its centre.
+const SubmapView& Session::joining_view(const Submap& submap, int32_t segment) const {
   const int32_t centre = submap.count / 2;
   int32_t best = -1;
   for (int32_t k = 0; k < submap.count; ++k) {
@@ -177,10 +202,39 @@ void Session::join_segment(const Submap& submap, int32_t segment, int32_t into) 
     if (!view.measured || keyframes_[view.keyframe].segment != segment) continue;
     if (best < 0 || std::abs(k - centre) < std::abs(best - centre)) best = k;
   }
-  const SubmapView& view = submaps_.view(submap, best);
+  return submaps_.view(submap, best);
+}
+
+/// How the view's segment has to move for the view to lie where the submap sees it.
+Sim3 Session::join_correction(const SubmapView& view, const Sim3& T_world_submap) const {
   const Sim3 T_world_kf =
-      graph_.pose(submap.node) * bridge_measurement(view.T_submap_kf, math::exp(view.log_rho));
-  const Sim3 correction = T_world_kf * keyframe_pose(view.keyframe).inverse();
+      T_world_submap * bridge_measurement(view.T_submap_kf, math::exp(view.log_rho));
+  return T_world_kf * keyframe_pose(view.keyframe).inverse();
+}
+
+/// Would all that follows a submap into its segment stay within the range of numbers?
+bool Session::joins_in_range(const Submap& submap, const Sim3& T_world_submap,
+                             int32_t segment) const {
+  if (segment == submap.segment) return true;
+  const Sim3 correction = join_correction(joining_view(submap, segment), T_world_submap);
+  bool in_range = correction.in_range();
+  for (int32_t k = 0; in_range && k < submaps_.size(); ++k) {
+    const Submap& other = submaps_.at(k);
+    if (other.segment != segment || other.node < 0) continue;
+    in_range = (correction * submap_pose(other)).in_range();
+  }
+  for (int32_t id = keyframes_.first(); in_range && id < keyframes_.size(); ++id) {
+    const Keyframe& keyframe = keyframes_[id];
+    if (keyframe.segment != segment || !keyframe.posed()) continue;
+    in_range = (correction * keyframe_pose(id)).in_range();
+  }
+  return in_range;
+}
+
+/// Move a segment as a whole so that the view that joins it lies where the submap sees it.
+void Session::join_segment(const Submap& submap, int32_t segment, int32_t into) {
+  const SubmapView& view = joining_view(submap, segment);
+  const Sim3 correction = join_correction(view, graph_.pose(submap.node));
   move_retired(segment, correction);
   for (int32_t k = 0; k < submaps_.size(); ++k) {
     Submap& other = submaps_.at(k);

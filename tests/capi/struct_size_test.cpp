@@ -75,7 +75,7 @@ TEST_CASE("structs smaller than the first release are refused") {
   CHECK(unisim_optimize(host, &budget, nullptr) == UNISIM_ERR_ABI_MISMATCH);
 }
 
-TEST_CASE("results of a newer struct leave its tail alone and keep its size") {
+TEST_CASE("results of a newer struct have zeros in its tail and keep its size") {
   World world(4, 1U);
   Host host(default_config());
   host.feed(world, 4);
@@ -86,7 +86,19 @@ TEST_CASE("results of a newer struct leave its tail alone and keep its size") {
   REQUIRE(unisim_get_pose(host, 2, &pose.known) == UNISIM_OK);
   CHECK(pose.known.struct_size == sizeof pose);
   CHECK(pose.known.keyframe_id == 2);
-  for (const unsigned char byte : pose.tail) CHECK(byte == 0x5A);
+  for (const unsigned char byte : pose.tail) CHECK(byte == 0);
+}
+
+TEST_CASE("a size that no header will ever have is refused") {
+  Host host(default_config());
+  unisim_session_info info = {};
+  info.struct_size = UINT32_MAX;  // as in memory nobody has set
+  CHECK(unisim_get_info(host, &info) == UNISIM_ERR_ABI_MISMATCH);
+  unisim_keyframe keyframe = {UINT32_MAX, 0, 0};
+  int32_t id = 0;
+  CHECK(unisim_add_keyframe(host, &keyframe, &id) == UNISIM_ERR_ABI_MISMATCH);
+  unisim_config config;
+  CHECK(unisim_config_init(&config, UINT32_MAX) == UNISIM_ERR_ABI_MISMATCH);
 }
 
 TEST_CASE("a trajectory is written with the caller's stride") {
@@ -94,6 +106,7 @@ TEST_CASE("a trajectory is written with the caller's stride") {
   Host host(default_config());
   host.feed(world, 4);
   std::vector<Newer<unisim_pose>> poses(4);
+  for (Newer<unisim_pose>& pose : poses) std::memset(&pose, 0x5A, sizeof pose);
   poses[0].known.struct_size = sizeof poses[0];
   size_t count = 0;
   CHECK(unisim_get_trajectory(host, &poses[0].known, 3, &count) == UNISIM_ERR_CAPACITY);
@@ -102,6 +115,7 @@ TEST_CASE("a trajectory is written with the caller's stride") {
   for (int32_t k = 0; k < 4; ++k) {
     CHECK(poses[static_cast<size_t>(k)].known.keyframe_id == k);
     CHECK(poses[static_cast<size_t>(k)].known.timestamp_ns == 1000 * k);
+    for (const unsigned char byte : poses[static_cast<size_t>(k)].tail) CHECK(byte == 0);
   }
   CHECK(unisim_get_trajectory(host, nullptr, 0, &count) == UNISIM_ERR_CAPACITY);
   CHECK(count == 4);

@@ -196,6 +196,81 @@ TEST_CASE("an update beyond the gate is refused and the old measurement stays") 
   CHECK(host.optimize().final_cost < 1e-9);
 }
 
+TEST_CASE("updates that drive a unit out of the range of numbers are invalid, nothing breaks") {
+  const double step = GENERATE(20.0, -20.0);
+  const bool origin_alone = GENERATE(false, true);
+  World world(30, 8U);
+  Host host(config_of(10, 4));
+  feed_pairs(host, world, 16);
+  const Views views = world.views(ids(0, 10));
+  REQUIRE(host.add_submap(views) == 0);
+  REQUIRE(host.add_submap(world.views(ids(6, 10))) == 1);
+  std::vector<double> ratios(10, origin_alone ? 0.0 : step);
+  ratios[5] = step;
+  const unisim_submap_update update = update_of(0, views, ratios);
+  unisim_status status = UNISIM_OK;
+  for (int32_t k = 0; k < 100 && status == UNISIM_OK; ++k) {
+    status = unisim_update_submap(host, &update);
+  }
+  CHECK(status == UNISIM_ERR_INVALID_ARGUMENT);
+  CHECK(unisim_update_submap(host, &update) == UNISIM_ERR_INVALID_ARGUMENT);
+  SECTION("also with an optimisation between") {
+    CHECK(unisim_optimize(host, nullptr, nullptr) != UNISIM_ERR_INTERNAL);
+    CHECK(unisim_update_submap(host, &update) != UNISIM_ERR_INTERNAL);
+  }
+  SECTION("the way back is open") {
+    for (double& ratio : ratios) ratio = -ratio;
+    CHECK(unisim_update_submap(host, &update) == UNISIM_OK);
+  }
+  CHECK(host.pose(3).confidence == 2);
+}
+
+TEST_CASE("a window whose unit is out of the range of numbers is refused") {
+  const float unit = GENERATE(1e-36F, 1e36F);
+  World world(30, 8U);
+  Host host(config_of(6, 2));
+  feed_pairs(host, world, 6);
+  Views views = world.views(ids(0, 6));
+  for (Depth& depth : views.depth) {
+    for (float& pixel : depth.pixels()) pixel *= unit;
+  }
+  CHECK(host.add_submap(views) == -1);
+  CHECK(host.info().submaps_refused == 1);
+  CHECK(host.optimize().submaps == 0);
+}
+
+TEST_CASE("segments that leap in scale, again and again, are joined or refused, nothing breaks") {
+  World world(200, 8U);
+  unisim_config config = config_of(6, 2);
+  config.max_keyframes = 200;
+  Host host(config);
+  const auto joined = [&](int32_t from) {
+    // A loop that sees the second half thirty orders of magnitude nearer.
+    Views views = world.views(both(from - 6, from + 2, 3));
+    for (size_t k = 3; k < 6; ++k) {
+      for (float& pixel : views.depth[k].pixels()) pixel *= 1e-29F;
+    }
+    return views;
+  };
+  host.add_keyframe();
+  for (int32_t id = 1; id < 200; ++id) {
+    host.add_keyframe();
+    if (id % 10 == 0) {
+      REQUIRE(host.reject_pair() == UNISIM_OK);
+    } else {
+      REQUIRE(host.add_pair(world.pair(id - 1)) == UNISIM_OK);
+    }
+    if (id % 10 != 8 || id < 18) continue;
+    const Views views = joined(id - 5);
+    const unisim_submap loop = views.submap();
+    int32_t made = -1;
+    REQUIRE(unisim_add_loop(host, &loop, &made) == UNISIM_OK);
+    const unisim_status status = unisim_optimize(host, nullptr, nullptr);
+    REQUIRE((status == UNISIM_OK || status == UNISIM_ERR_NUMERICAL));
+  }
+  CHECK(host.info().loops_refused > 0);
+}
+
 TEST_CASE("windows take most of the drift out of a noisy chain, a loop takes more") {
   Noise noise;
   noise.rotation = 0.004;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "tests/support/catch.hpp"
@@ -78,6 +79,34 @@ TEST_CASE("one byte short of the padded layout is out of memory") {
   const Layout too_large(tight);
   CHECK_FALSE(tight.ok());
   CHECK(too_large.more.data() == nullptr);
+}
+
+TEST_CASE("a layout beyond what can be addressed is not ok, however often it wraps") {
+  // As on a 32-bit machine, where a legal configuration gets there.
+  struct Terabyte {
+    unsigned char bytes[size_t{1} << 40];
+  };
+  const volatile int32_t quarter = 1 << 22;  // of what 64 bits can count
+  const volatile int32_t most = std::numeric_limits<int32_t>::max();
+  Arena product;
+  CHECK(product.take<Terabyte>(quarter).size() == quarter);
+  CHECK(product.ok());
+  CHECK(product.take<Terabyte>(most).data() == nullptr);
+  CHECK_FALSE(product.ok());
+  CHECK(product.used_bytes() == SIZE_MAX);
+  CHECK(product.required_bytes() == SIZE_MAX);
+
+  Arena sum;
+  for (int k = 0; k < 4; ++k) static_cast<void>(sum.take<Terabyte>(quarter));
+  static_cast<void>(sum.take<unsigned char>(1));
+  CHECK_FALSE(sum.ok());
+  CHECK(sum.required_bytes() == SIZE_MAX);
+
+  unsigned char memory[256];
+  Arena small(memory, sizeof memory);
+  CHECK(small.take<Terabyte>(most).data() == nullptr);
+  CHECK(small.take<unsigned char>(1).data() == nullptr);
+  CHECK_FALSE(small.ok());
 }
 
 TEST_CASE("elements start at their default value whatever the memory held") {

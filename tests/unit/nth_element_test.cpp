@@ -27,6 +27,13 @@ TEST_CASE("median of odd and even counts") {
   CHECK(unisim::median(Span<float>(one.data(), 1)) == 2.0);
 }
 
+TEST_CASE("the median of doubles keeps their digits") {
+  std::vector<double> odd{9.0, 1.0, 5.000000000123};
+  CHECK(unisim::median(Span<double>(odd.data(), 3)) == 5.000000000123);
+  std::vector<double> even{9.0, 1.0, 5.000000000123, 2.0};
+  CHECK(unisim::median(Span<double>(even.data(), 4)) == 0.5 * (2.0 + 5.000000000123));
+}
+
 TEST_CASE("nth_element agrees with sorting on random values with ties") {
   unisim_test::Random random(3);
   for (int trial = 0; trial < 50; ++trial) {
