@@ -21,10 +21,10 @@ Span<unsigned char> take_session(Arena& arena) {
 
 Session::Session(const SessionConfig& config, const SessionCapacity& capacity, Arena& arena)
     : config_(config),
-      keyframes_(part(arena, "keyframes"), capacity.keyframes),
+      keyframes_(part(arena, "keyframes"), capacity.keyframes, config.first_keyframe_id),
       windows_(part(arena, "windows"), config.window_size, config.window_overlap,
-               capacity.open_windows, config.window_submaps > 0),
-      submaps_(part(arena, "submaps"), capacity.submaps),
+               capacity.open_windows, config.window_submaps > 0, config.first_keyframe_id),
+      submaps_(part(arena, "submaps"), capacity.submaps, config.first_submap_id),
       tracking_(config.lost_after),
       depth_(part(arena, "depth"), capacity.depth, config.confidence_drop),
       graph_(part(arena, "graph"), capacity.graph),
@@ -39,8 +39,12 @@ Session::Session(const SessionConfig& config, const SessionCapacity& capacity, A
       condenser_(part(arena, "condenser"), capacity.condenser),
       local_node_(arena.take<int32_t>(capacity.live_windows > 0 ? capacity.graph.nodes : 0)),
       place_(arena.take<int32_t>(local_node_.size())),
+      live_from_(config.first_keyframe_id),
+      offered_(config.first_keyframe_id),
       live_nodes_capacity_(capacity.live_nodes),
       skeleton_capacity_(capacity.skeleton),
+      settled_(config.first_keyframe_id),
+      closed_at_(config.first_keyframe_id),
       window_pair_capacity_(capacity.window_pairs) {}
 
 Arena Session::measure(const SessionConfig& config) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/base/arena.hpp"
+#include "core/base/counter.hpp"
 #include "core/base/status.hpp"
 #include "core/graph/graph.hpp"
 #include "core/map/depth_book.hpp"
@@ -115,24 +116,24 @@ struct SessionCounts {
   int32_t posed_keyframes = 0;
   int32_t last_posed = -1;
   int32_t windows = 0;
-  int32_t submaps_refused = 0;
+  Counter submaps_refused;
   int32_t loops = 0;
-  int32_t loops_refused = 0;
+  Counter loops_refused;
   int32_t pairs_refused = 0;
   int32_t segments = 0;
-  int32_t map_revision = 0;
+  Counter map_revision;
   int32_t retired_keyframes = 0;
   int32_t retired_loops = 0;
   int32_t retired_windows = 0;
-  int32_t suspended_loops = 0;   ///< now
-  int32_t loop_suspensions = 0;  ///< so far
-  int32_t loop_returns = 0;      ///< suspended ones that agreed again
-  int32_t loops_removed = 0;     ///< by the host
-  int32_t loops_dropped = 0;     ///< given up to stay within memory
-  int32_t stretches = 0;         ///< of keyframes that no window came for
-  int32_t retired_unread = 0;    ///< gone before they were asked for
-  int32_t live_nodes = 0;        ///< keyframes in the graph
-  int32_t optimizations = 0;
+  int32_t suspended_loops = 0;  ///< now
+  Counter loop_suspensions;     ///< so far
+  Counter loop_returns;         ///< suspended ones that agreed again
+  int32_t loops_removed = 0;    ///< by the host
+  int32_t loops_dropped = 0;    ///< given up to stay within memory
+  int32_t stretches = 0;        ///< of keyframes that no window came for
+  int32_t retired_unread = 0;   ///< gone before they were asked for
+  int32_t live_nodes = 0;       ///< keyframes in the graph
+  int64_t optimizations = 0;
 };
 
 /// A session in the caller's memory. Calls return kOk or leave the session as it was; a broken
@@ -299,6 +300,7 @@ class Session {
   Sim3 shared_measurement(const SharedKeyframe& shared) const;
   double quality_multiplier(double center_sigma) const;
   EdgeWeight edge_weight(FactorKind kind, double multiplier, bool is_loop) const;
+  bool has_ids() const { return keyframes_.size() <= kLastId && submaps_.next_id() <= kLastId; }
   int32_t settled_for_windows() const;
   void describe_changes(OptimizeReport* report);
   void describe_bad_node(OptimizeReport* report) const;

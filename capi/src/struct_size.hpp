@@ -115,8 +115,8 @@ unisim_status check_output(const T* user) {
   return is_size_of<T>(struct_size_of(user)) ? UNISIM_OK : UNISIM_ERR_ABI_MISMATCH;
 }
 
-/// Copy results to the caller's struct of `size` bytes, which check_output() has passed. A tail that
-/// this library does not know is zeroed: to its reader zero means "as before".
+/// Copy results to the caller's struct of `size` bytes, which check_output() has passed. A tail
+/// that this library does not know is zeroed: to its reader zero means "as before".
 template <class T>
 void write_struct(T ours, size_t size, void* user) {
   ours.struct_size = static_cast<uint32_t>(size);

@@ -22,8 +22,7 @@ double middle(Span<T> values) {
   UNISIM_CHECK(n > 0);
   const auto upper = static_cast<double>(select(values, n / 2));
   if (n % 2 == 1) return upper;
-  const auto lower =
-      static_cast<double>(*std::max_element(values.begin(), values.begin() + n / 2));
+  const auto lower = static_cast<double>(*std::max_element(values.begin(), values.begin() + n / 2));
   return 0.5 * (lower + upper);
 }
 

@@ -37,16 +37,17 @@ struct Keyframe {
   }
 };
 
-/// Keyframe by id; ids grow for ever, the newest `capacity` keyframes are kept.
+/// Keyframe by id; ids grow (kLastId), the newest `capacity` keyframes are kept.
 class KeyframeRing {
  public:
   KeyframeRing() = default;
-  KeyframeRing(Arena& arena, int32_t capacity) : keyframes_(arena.take<Keyframe>(capacity)) {}
+  KeyframeRing(Arena& arena, int32_t capacity, int32_t first_id = 0)
+      : keyframes_(arena.take<Keyframe>(capacity)), size_(first_id), first_(first_id) {}
 
   /// Would one more take the place of the oldest?
   bool full() const { return size_ - first_ == keyframes_.size(); }
   int32_t capacity() const { return keyframes_.size(); }
-  /// Keyframes there have been: the next id.
+  /// The next id.
   int32_t size() const { return size_; }
   /// Oldest that is kept.
   int32_t first() const { return first_; }

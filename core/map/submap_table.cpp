@@ -6,7 +6,7 @@
 
 namespace unisim {
 
-SubmapTable::SubmapTable(Arena& arena, const SubmapTableSize& size)
+SubmapTable::SubmapTable(Arena& arena, const SubmapTableSize& size, int32_t first_id)
     : size_(size),
       slots_(arena.take<Submap>(size.windows + size.loops)),
       order_(arena, slots_.size()),
@@ -14,7 +14,8 @@ SubmapTable::SubmapTable(Arena& arena, const SubmapTableSize& size)
       ids_(arena.take<int32_t>(slots_.size() * size.views)),
       views_(arena.take<SubmapView>(size.live * size.views)),
       free_views_(arena, size.live),
-      shared_(arena, size.shared) {
+      shared_(arena, size.shared),
+      next_id_(first_id) {
   if (arena.dry()) return;
   for (int32_t slot = slots_.size() - 1; slot >= 0; --slot) {
     static_cast<void>(free_slots_.push_back(slot));

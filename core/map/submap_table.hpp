@@ -29,7 +29,7 @@ struct SubmapView {
 struct LoopHealth {
   double norm = 0.0;       ///< whitened residual after the last optimisation
   int32_t strikes = 0;     ///< optimisations in a row that left it beyond the gate
-  int32_t retry_at = 0;    ///< suspended: optimisation that tries it again
+  int64_t retry_at = 0;    ///< suspended: optimisation that tries it again
   int32_t wait = 0;        ///< suspended: optimisations between tries, doubled each time
   bool suspended = false;  ///< its edges contribute nothing
 };
@@ -85,13 +85,14 @@ struct SubmapTableSize {
 class SubmapTable {
  public:
   SubmapTable() = default;
-  SubmapTable(Arena& arena, const SubmapTableSize& size);
+  SubmapTable(Arena& arena, const SubmapTableSize& size, int32_t first_id = 0);
 
   /// Submaps that are kept, in order of arrival; `position` is below this.
   int32_t size() const { return order_.size(); }
   Submap& at(int32_t position) { return slots_[order_[position]]; }
   const Submap& at(int32_t position) const { return slots_[order_[position]]; }
 
+  int32_t next_id() const { return next_id_; }
   bool has(int32_t id) const { return slot_of(id) >= 0; }
   /// Was there, and has been erased.
   bool gone(int32_t id) const { return id >= 0 && id < next_id_ && !has(id); }

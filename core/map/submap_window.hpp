@@ -22,8 +22,15 @@ class WindowSchedule {
  public:
   WindowSchedule() = default;
   /// @param max_windows cut in all; with `endless` open at a time, the oldest of them gives way
-  WindowSchedule(Arena& arena, int32_t size, int32_t overlap, int32_t max_windows, bool endless)
-      : open_(arena, max_windows), size_(size), overlap_(overlap), endless_(endless) {}
+  /// @param first_id of the keyframes
+  WindowSchedule(Arena& arena, int32_t size, int32_t overlap, int32_t max_windows, bool endless,
+                 int32_t first_id)
+      : open_(arena, max_windows),
+        size_(size),
+        overlap_(overlap),
+        endless_(endless),
+        next_first_(first_id),
+        covered_(first_id) {}
 
   /// A keyframe has arrived; `keyframes` are there now. false: it completed a window and there is
   /// no room; `skipped` will not be asked for.

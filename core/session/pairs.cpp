@@ -32,10 +32,10 @@ EdgeWeight Session::edge_weight(FactorKind kind, double multiplier, bool is_loop
 
 Status Session::add_keyframe(int64_t timestamp_ns, int32_t* id) {
   const int32_t newest = keyframes_.size() - 1;
-  if (newest >= 0 && timestamp_ns <= keyframes_[newest].timestamp_ns) {
+  if (newest >= config_.first_keyframe_id && timestamp_ns <= keyframes_[newest].timestamp_ns) {
     return Status::kInvalidArgument;
   }
-  if (keyframes_.full() && !slides()) return Status::kCapacity;
+  if ((keyframes_.full() && !slides()) || !has_ids()) return Status::kCapacity;
   if (slides()) make_keyframe_room();
   *id = keyframes_.append(timestamp_ns);
   depth_.begin_keyframe(*id);
@@ -87,8 +87,8 @@ Status Session::add_two_view(const TwoViewInput& input) {
   const int32_t source = keyframes_.pose_source(input.i);
   const Sim3 T_world_i = source >= 0 ? keyframe_pose(source) : Sim3();
   const Sim3 Z_i_j = two_view_measurement(input.T_i_j, math::exp(log_ratio));
-  const bool in_range = Z_i_j.in_range() && (T_world_i * Z_i_j).in_range() &&
-                        (T_world_i * input.T_i_j).in_range();
+  const bool in_range =
+      Z_i_j.in_range() && (T_world_i * Z_i_j).in_range() && (T_world_i * input.T_i_j).in_range();
   if (!in_range) {
     LogLine line;
     line << "pair " << input.i << "," << input.j << " refused: its scale is out of range";

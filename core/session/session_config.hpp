@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "core/graph/edge.hpp"
 #include "core/graph/graph.hpp"
@@ -15,6 +16,11 @@ namespace unisim {
 
 inline constexpr int32_t kFactorKinds = 5;  ///< kinds made of predictions; not kChain
 inline constexpr int32_t kMaxViews = 64;    ///< keyframes of one prediction
+
+/// Ids are given once, from 0 on. When those of keyframes or of submaps are used up the session
+/// takes no more of either and stays as it is. What lies behind is for sums of ids and lengths, and
+/// for the submaps that close the keyframes that are there.
+inline constexpr int32_t kLastId = std::numeric_limits<int32_t>::max() - 65536;
 
 /// How measurements enter the graph; numbers of UNISIM_PRESET_*.
 enum class Preset : int32_t {
@@ -51,6 +57,8 @@ struct SessionConfig {
   int32_t max_iterations = 10;
   int32_t window_submaps = 0;
   int32_t skeleton_capacity = 128;
+  int32_t first_keyframe_id = 0;  ///< for tests of where ids end
+  int32_t first_submap_id = 0;
   LogSink log;
 
   const FactorSetting& factor(FactorKind kind) const { return factors[static_cast<int>(kind)]; }

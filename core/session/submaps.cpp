@@ -26,8 +26,8 @@ Status Session::check_views(const SubmapInput& input, bool is_loop, int32_t* win
     if (*window < 0) return Status::kInvalidArgument;
     if (windows_.at(*window).last() > settled_for_windows()) return Status::kNotReady;
   }
-  const bool room = count <= config_.window_size && (slides() || submaps_.has_room(is_loop)) &&
-                    (!is_loop || config_.max_loops > 0);
+  const bool room = count <= config_.window_size && has_ids() &&
+                    (slides() || submaps_.has_room(is_loop)) && (!is_loop || config_.max_loops > 0);
   return room ? Status::kOk : Status::kCapacity;
 }
 

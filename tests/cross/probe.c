@@ -132,7 +132,25 @@ static void walk(int window_submaps) {
   free(arena);
 }
 
+/* Over 100 GB: a machine of 32 bits says so instead of counting wrong. */
+static void ask_for_too_much(void) {
+  unisim_config config;
+  expect(unisim_config_init(&config, sizeof config) == UNISIM_OK, "unisim_config_init");
+  config.max_keyframes = 65536;
+  config.window_size = UNISIM_MAX_VIEWS;
+  config.window_overlap = UNISIM_MAX_VIEWS - 1;
+  config.max_loops = 4096;
+  size_t size = 0;
+  const unisim_status status = unisim_arena_size(&config, &size);
+  if (sizeof size == 4) {
+    expect(status == UNISIM_ERR_OUT_OF_MEMORY, "too large a session");
+  } else {
+    expect(status == UNISIM_OK && size / 1000000000 > 100, "a large session");
+  }
+}
+
 int main(void) {
+  ask_for_too_much();
   walk(0);
   walk(2);
   printf("%016llx\n", (unsigned long long)hash);
