@@ -33,7 +33,7 @@ void Intrinsics::note_rotation(double angle_rad) { turned_rad = std::max(turned_
 void Intrinsics::give(bool early, BundleIntrinsics* out) const {
   out->set_model(camera);
   out->free_focal = !focal_known;
-  out->free_k1 = !focal_known && k1_observable();
+  out->free_k1 = k1_observable();
   out->log_focal_mean = std::log(start_focal);
   out->log_focal_sigma = early ? kStartSigma : 0.0;
   out->k1_mean = 0.0;
@@ -41,11 +41,11 @@ void Intrinsics::give(bool early, BundleIntrinsics* out) const {
 }
 
 void Intrinsics::take(const BundleIntrinsics& in, const cv::Size& size) {
-  if (focal_known) return;
   const CameraModel model = in.model();
   if (!std::isfinite(model.focal_px) || !std::isfinite(model.k1)) return;
-  camera.focal_px = std::clamp(model.focal_px, kMinFocal * size.width, kMaxFocal * size.width);
   camera.k1 = model.k1;
+  if (focal_known) return;
+  camera.focal_px = std::clamp(model.focal_px, kMinFocal * size.width, kMaxFocal * size.width);
 }
 
 }  // namespace unisim::geometric

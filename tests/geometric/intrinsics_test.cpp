@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "drivers/geometric/intrinsics.hpp"
+
+#include "tests/support/catch.hpp"
+
+using unisim::geometric::BundleIntrinsics;
+using unisim::geometric::Intrinsics;
+
+// A lens bends the image whether or not its focal length is known: held at zero, redkitchen by
+// motion with the true focal length ended at 0.0120 m instead of 0.0044 m.
+TEST_CASE("a known focal length is held, the radial term is still estimated") {
+  const cv::Size size(640, 480);
+  Intrinsics intrinsics = Intrinsics::start(size, 525.5);
+  intrinsics.note_rotation(0.5);
+  BundleIntrinsics problem;
+  intrinsics.give(false, &problem);
+  CHECK_FALSE(problem.free_focal);
+  CHECK(problem.free_k1);
+
+  unisim::geometric::CameraModel found = intrinsics.camera;
+  found.focal_px = 600.0;
+  found.k1 = 0.03;
+  problem.set_model(found);
+  intrinsics.take(problem, size);
+  CHECK(intrinsics.camera.focal_px == 525.5);
+  CHECK(intrinsics.camera.k1 == Approx(0.03));
+}
