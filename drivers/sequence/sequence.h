@@ -14,7 +14,8 @@
  *  A camera does not turn its sensor on the way: the EXIF orientation of the first readable image
  *  holds for all of them. 16-bit images that use 8, 10, 12 or 14 bits (judged by eight of them,
  *  spread over the range asked for) are reduced to 8 bits from these. 16-bit gray images with
- *  "depth" in the name of file or folder are refused.
+ *  "depth" in the name of file or folder are refused. Videos are turned as their file says, and
+ *  stretched where their pixels are not square.
  */
 #ifndef UNISIM_DRIVERS_REPLAY_SEQUENCE_H
 #define UNISIM_DRIVERS_REPLAY_SEQUENCE_H

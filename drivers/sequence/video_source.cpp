@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <opencv2/videoio.hpp>
 #include <opencv2/videoio/registry.hpp>
 #include <utility>
@@ -12,7 +13,9 @@
 #include "drivers/sequence/folder.hpp"
 #include "drivers/sequence/frame_source.hpp"
 #include "drivers/sequence/image_decoder.hpp"
+#include "drivers/sequence/square_pixels.hpp"
 #include "drivers/sequence/text_file.hpp"
+#include "drivers/sequence/video_container.hpp"
 
 namespace unisim::sequence {
 namespace {
@@ -53,10 +56,12 @@ cv::VideoCapture open_video(const std::string& path) {
 
 class VideoSource final : public FrameSource {
  public:
-  VideoSource(std::string path, cv::VideoCapture video, double fps, FrameRange range)
-      : FrameSource("video", {}, {}),
+  VideoSource(std::string path, cv::VideoCapture video, const SquarePixels& square, double fps,
+              FrameRange range)
+      : FrameSource("video", {}, square.note()),
         path_(std::move(path)),
         video_(std::move(video)),
+        square_(square),
         range_(range) {
     const double own_fps = video_.get(cv::CAP_PROP_FPS);
     own_times_ = fps <= 0;
@@ -88,22 +93,31 @@ class VideoSource final : public FrameSource {
   int decode_last(unisim_frame* frame) override {
     std::string reason = "cannot be decoded";
     if (video_.retrieve(image_) && !image_.empty() && size_.fits(image_, &reason)) {
-      frame->image = view_of(image_);
+      frame->image = view_of(square_.apply(image_, &stretched_));
       return UNISIM_FRAME_OK;
     }
     return answer(UNISIM_FRAME_BAD, "frame " + std::to_string(next_ - 1) + ": " + path_ + ": " +
                                         reason + ": skipped");
   }
 
-  // The container's time where it has one that grows, else the frame rate.
+  // The container's time where it has one that grows. The last frames have none where frames are
+  // stored in another order than shown: those go on as before them, else at the frame rate.
   void advance() {
-    const int64_t by_rate = next_ == 0 ? 0 : timestamp_ns_ + time_at_rate(1, fps_);
+    if (!own_times_) {
+      timestamp_ns_ = time_at_rate(next_++, fps_);
+      return;
+    }
     const double own_ms = video_.get(cv::CAP_PROP_POS_MSEC);
     const int64_t own_ns = std::abs(own_ms * 1e6) <= kMaxTimeNs ? std::llround(own_ms * 1e6) : 0;
-    if (!own_times_) {
-      timestamp_ns_ = time_at_rate(next_, fps_);
+    if (next_ == 0) {
+      timestamp_ns_ = own_ns;
+    } else if (own_ns > timestamp_ns_) {
+      step_ns_ = own_ns - timestamp_ns_;
+      timestamp_ns_ = own_ns;
     } else {
-      timestamp_ns_ = next_ == 0 || own_ns > timestamp_ns_ ? own_ns : by_rate;
+      const int64_t step = step_ns_ > 0 ? step_ns_ : time_at_rate(1, fps_);
+      // At the end of all times they repeat, which makes bad frames.
+      if (timestamp_ns_ <= std::numeric_limits<int64_t>::max() - step) timestamp_ns_ += step;
     }
     ++next_;
   }
@@ -112,21 +126,27 @@ class VideoSource final : public FrameSource {
     ended_ = true;
     const int64_t expected = std::min(total_, range_.to);
     if (next_ + std::max(kCountSlack, expected / 100) >= expected) return UNISIM_FRAME_END;
+    const ContainerFacts facts = read_container(path_);
+    if (!facts.cut_off && !facts.counts_shown_frames) return UNISIM_FRAME_END;
     return answer(UNISIM_FRAME_BAD, "frame " + std::to_string(next_) + ": " + path_ +
                                         ": ends here, " + std::to_string(expected) +
-                                        " frames were announced: file cut off");
+                                        " frames were announced: file " +
+                                        (facts.cut_off ? "cut off" : "damaged"));
   }
 
   std::string path_;
   cv::VideoCapture video_;
+  SquarePixels square_;
   FrameRange range_;
   double fps_ = kUsualFps;
   bool own_times_ = true;
   int64_t total_ = -1;  // as the container says, -1 if it does not
   int64_t next_ = 0;    // position of the next frame to grab
   int64_t timestamp_ns_ = 0;
+  int64_t step_ns_ = 0;  // between the last two frames with times of their own
   bool ended_ = false;
   cv::Mat image_;
+  cv::Mat stretched_;
   SizeCheck size_;
 };
 
@@ -137,7 +157,9 @@ bool recognise(const std::string& path) { return is_file(path) && !has_image_end
 const Format kVideo = {"video", "a video file", recognise, nullptr};
 
 std::unique_ptr<FrameSource> make_video_source(const OpenRequest& request, FrameRange range) {
-  return std::make_unique<VideoSource>(request.path, open_video(request.path), request.fps, range);
+  cv::VideoCapture video = open_video(request.path);
+  const SquarePixels square = square_pixels(request.path, video);
+  return std::make_unique<VideoSource>(request.path, std::move(video), square, request.fps, range);
 }
 
 }  // namespace unisim::sequence

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Videos whose pixels are wider than high, or the other way, become pictures of square ones.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
+#include <string>
+
+namespace unisim::sequence {
+
+/// A camera model of one focal length holds for square pixels only.
+class SquarePixels {
+ public:
+  SquarePixels() = default;
+
+  /// @param stored size of the pictures as they come @param shown what it becomes
+  SquarePixels(cv::Size stored, cv::Size shown, const std::string& aspect);
+
+  /// @param[out] stretched set where the pixels are not square @return the picture to use
+  const cv::Mat& apply(const cv::Mat& image, cv::Mat* stretched) const;
+
+  /// What a user should know of it, "" if nothing.
+  const std::string& note() const { return note_; }
+
+ private:
+  cv::Size shown_;
+  std::string note_;
+};
+
+/// As the container says. @throws InputError where that is out of all reason
+SquarePixels square_pixels(const std::string& path, const cv::VideoCapture& video);
+
+}  // namespace unisim::sequence
