@@ -2,8 +2,7 @@
 // Chain factor.
 #include "core/graph/chain.hpp"
 
-#include <Eigen/Cholesky>
-
+#include "core/base/positive_definite.hpp"
 #include "core/graph/relative_pose.hpp"
 
 namespace unisim {
@@ -13,7 +12,7 @@ bool valid_link(const ChainLink& link) {
   constexpr double kSymmetry = 1e-9;
   const double size = link.Lambda.cwiseAbs().maxCoeff();
   const double skew = (link.Lambda - link.Lambda.transpose()).cwiseAbs().maxCoeff();
-  return skew <= kSymmetry * size && link.Lambda.llt().info() == Eigen::Success;
+  return skew <= kSymmetry * size && is_positive_definite(link.Lambda);
 }
 
 Vec7 chain_residual(const Sim3& T_world_a, const Sim3& T_world_b, const Sim3& Z_a_b) {

@@ -2,7 +2,7 @@
 // Chain links moved from a node to another it has become rigid with, and fused.
 #include "core/graph/chain_transfer.hpp"
 
-#include <Eigen/Cholesky>
+#include "core/base/positive_definite.hpp"
 
 namespace unisim {
 namespace {
@@ -10,8 +10,6 @@ namespace {
 Mat7 symmetric(const Mat7& M) { return 0.5 * (M + M.transpose()); }
 
 }  // namespace
-
-Mat7 inverse_of_positive(const Mat7& M) { return symmetric(M.llt().solve(Mat7::Identity())); }
 
 // e = log(Z^-1 S_b^-1 S_c): a move d of b turns it by Ad(Z^-1) d.
 ChainLink move_first_end(const ChainLink& link, const Sim3& T_a_b, const Mat7& covariance) {
@@ -31,14 +29,14 @@ ChainLink move_second_end(const ChainLink& link, const Sim3& T_a_b, const Mat7& 
 ChainLink fuse(const ChainLink& one, const ChainLink& other) {
   const Mat7 Lambda = one.Lambda + other.Lambda;
   const Vec7 apart = sim3_log(between(one.Z_a_b, other.Z_a_b));
-  const Vec7 step = Lambda.llt().solve(other.Lambda * apart);
+  const Vec7 step = solve_positive(Lambda, other.Lambda * apart);
   return {retract(one.Z_a_b, step), Lambda};
 }
 
 double disagreement_squared(const ChainLink& one, const ChainLink& other) {
   const Vec7 apart = sim3_log(between(one.Z_a_b, other.Z_a_b));
   const Mat7 covariance = inverse_of_positive(one.Lambda) + inverse_of_positive(other.Lambda);
-  return apart.dot(covariance.llt().solve(apart));
+  return apart.dot(solve_positive(covariance, apart));
 }
 
 }  // namespace unisim

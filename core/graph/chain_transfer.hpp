@@ -20,6 +20,4 @@ ChainLink fuse(const ChainLink& one, const ChainLink& other);
 /// Square of the whitened difference of two links between the same nodes.
 double disagreement_squared(const ChainLink& one, const ChainLink& other);
 
-Mat7 inverse_of_positive(const Mat7& M);
-
 }  // namespace unisim

@@ -2,6 +2,7 @@
 // A skeleton at its capacity: neighbours in time become one rigid node.
 #include <algorithm>
 
+#include "core/base/positive_definite.hpp"
 #include "core/graph/chain_transfer.hpp"
 #include "core/session.hpp"
 

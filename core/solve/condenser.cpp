@@ -2,8 +2,9 @@
 // Turns a small graph into one chain edge between two of its nodes.
 #include "core/solve/condenser.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+
+#include "core/base/positive_definite.hpp"
 
 namespace unisim {
 namespace {
@@ -60,10 +61,8 @@ bool Condenser::condense(int32_t a, int32_t b, ChainLink* link) {
   if (!is_ok(solver_.optimize(&graph_, options, &report))) return false;
   Mat7 covariance;
   if (!is_ok(solver_.marginal_covariance(graph_, b, &covariance))) return false;
-  const Mat7 symmetric = 0.5 * (covariance + covariance.transpose());
   link->Z_a_b = between(graph_.pose(a), graph_.pose(b));
-  const Mat7 Lambda = symmetric.llt().solve(Mat7::Identity());
-  link->Lambda = 0.5 * (Lambda + Lambda.transpose());
+  link->Lambda = inverse_of_positive(0.5 * (covariance + covariance.transpose()));
   return valid_link(*link);
 }
 

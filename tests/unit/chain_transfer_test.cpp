@@ -2,6 +2,7 @@
 // Chain links that change a node, and the mean of two.
 #include "core/graph/chain_transfer.hpp"
 
+#include "core/base/positive_definite.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/unit/core_support.hpp"
 
