@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Component unisim: libunisim (shared, static), its two headers, the CMake package, unisim.pc.
+# Component unisim: libunisim (shared, static), its headers, the CMake package, unisim.pc.
 # Programs and drivers install themselves where they are built.
 include(CMakePackageConfigHelpers)
 
@@ -7,6 +7,9 @@ install(TARGETS unisim unisim_static EXPORT unisim-targets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT unisim
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT unisim)
 install(FILES
+  ${PROJECT_SOURCE_DIR}/capi/include/unisim/config.h
+  ${PROJECT_SOURCE_DIR}/capi/include/unisim/results.h
+  ${PROJECT_SOURCE_DIR}/capi/include/unisim/types.h
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/unisim.h
   ${PROJECT_BINARY_DIR}/capi/include/unisim/version.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/unisim COMPONENT unisim)

@@ -43,6 +43,7 @@ Session::Session(const SessionConfig& config, const SessionCapacity& capacity, A
       offered_(config.first_keyframe_id),
       live_nodes_capacity_(capacity.live_nodes),
       skeleton_capacity_(capacity.skeleton),
+      refusals_(config.log),
       settled_(config.first_keyframe_id),
       closed_at_(config.first_keyframe_id),
       window_pair_capacity_(capacity.window_pairs) {}

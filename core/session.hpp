@@ -16,6 +16,7 @@
 #include "core/map/submap_table.hpp"
 #include "core/map/submap_window.hpp"
 #include "core/map/tracking_state.hpp"
+#include "core/session/refusals.hpp"
 #include "core/session/session_config.hpp"
 #include "core/solve/condenser.hpp"
 #include "core/solve/lm.hpp"
@@ -116,10 +117,7 @@ struct SessionCounts {
   int32_t posed_keyframes = 0;
   int32_t last_posed = -1;
   int32_t windows = 0;
-  Counter submaps_refused;
   int32_t loops = 0;
-  Counter loops_refused;
-  int32_t pairs_refused = 0;
   int32_t segments = 0;
   Counter map_revision;
   int32_t retired_keyframes = 0;
@@ -181,6 +179,7 @@ class Session {
   const Graph& graph() const { return graph_; }
   const TrackingState& tracking() const { return tracking_; }
   SessionCounts counts() const { return counts_; }
+  const Refusals& refusals() const { return refusals_; }
   size_t arena_bytes() const { return memory_bytes_; }
   size_t arena_used_bytes() const { return used_bytes_; }
   /// @return kOk; kInvalidArgument for an unknown id; kRetired when it is no longer kept; kNotReady
@@ -195,7 +194,7 @@ class Session {
   Session(const SessionConfig& config, const SessionCapacity& capacity, Arena& arena);
 
   void accept_pair(const TwoViewInput& input, double log_ratio, double multiplier);
-  void refuse_pair(int32_t j);
+  void refuse_pair(int32_t j, RefusalReason reason, double value = 0.0, double limit = 0.0);
   void start_segment(int32_t keyframe, const Sim3& T_world_kf);
   void give_node(int32_t keyframe, const Sim3& T_world_kf, int32_t segment);
 
@@ -205,8 +204,9 @@ class Session {
   bool choose_origin(Submap* submap);
   bool judge_submap(Submap* submap);
   bool is_in_range(const Submap& submap) const;
-  void begin_refusal(const Submap& submap, LogLine* line) const;
-  void refuse_submap(bool is_loop);
+  void refuse_submap(const Submap& submap, RefusalReason reason, double value = 0.0,
+                     double limit = 0.0);
+  void refuse_window(const Window& window, RefusalReason reason);
   void place_submap(Submap* submap);
   Sim3 first_pose(const Submap& submap) const;
   const SubmapView& joining_view(const Submap& submap, int32_t segment) const;
@@ -340,6 +340,7 @@ class Session {
   int32_t skeleton_capacity_ = 0;
 
   SessionCounts counts_;
+  Refusals refusals_;
   int32_t settled_ = 0;    // last keyframe whose pair with the one before is settled
   int32_t closed_at_ = 0;  // keyframes there were at the last close_window()
   int32_t window_pair_capacity_ = 0;

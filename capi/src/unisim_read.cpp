@@ -6,6 +6,8 @@
 #include "capi/src/struct_size.hpp"
 
 using unisim::PoseOutput;
+using unisim::PredictionKind;
+using unisim::RefusalReason;
 using unisim::Session;
 using unisim::Status;
 using unisim::to_c;
@@ -17,6 +19,16 @@ static_assert(UNISIM_STATE_INIT == static_cast<int>(Tracking::kInit) &&
                   UNISIM_STATE_LOST == static_cast<int>(Tracking::kLost) &&
                   UNISIM_STATE_RELOCALISED == static_cast<int>(Tracking::kRelocalised),
               "state numbers");
+
+static_assert(UNISIM_REFUSED_NONE == static_cast<int>(RefusalReason::kNone) &&
+                  UNISIM_REFUSED_SIGMA == static_cast<int>(RefusalReason::kSigma) &&
+                  UNISIM_REFUSED_SCATTER == static_cast<int>(RefusalReason::kScatter) &&
+                  UNISIM_REFUSED_VIEWS == static_cast<int>(RefusalReason::kViews) &&
+                  UNISIM_REFUSED_RANGE == static_cast<int>(RefusalReason::kRange) &&
+                  UNISIM_REFUSED_HOST == static_cast<int>(RefusalReason::kHost) &&
+                  UNISIM_REFUSED_ROOM == static_cast<int>(RefusalReason::kRoom) &&
+                  UNISIM_REFUSED_LATE == static_cast<int>(RefusalReason::kLate),
+              "reasons of refusals");
 
 namespace {
 
@@ -39,6 +51,17 @@ unisim_pose to_c(int32_t keyframe_id, const PoseOutput& pose) {
   p.submap_id = pose.submap;
   p.segment = pose.segment;
   return p;
+}
+
+unisim_refusal newest_refusal(const Session& session, unisim::PredictionKind kind) {
+  const unisim::Refusal& newest = session.refusals().newest(kind);
+  unisim_refusal r = {};
+  r.reason = static_cast<int32_t>(newest.reason);
+  r.first_keyframe = newest.first_keyframe;
+  r.last_keyframe = newest.last_keyframe;
+  r.value = newest.value;
+  r.limit = newest.limit;
+  return r;
 }
 
 }  // namespace
@@ -127,10 +150,10 @@ unisim_status unisim_get_info(const unisim_session* session, unisim_session_info
   i.posed_keyframes = counts.posed_keyframes;
   i.last_posed = counts.last_posed;
   i.submaps = counts.windows;
-  i.submaps_refused = counts.submaps_refused;
+  i.submaps_refused = source.refusals().count(PredictionKind::kWindow);
   i.loops = counts.loops;
-  i.loops_refused = counts.loops_refused;
-  i.pairs_refused = counts.pairs_refused;
+  i.loops_refused = source.refusals().count(PredictionKind::kLoop);
+  i.pairs_refused = source.refusals().count(PredictionKind::kPair);
   i.segments = counts.segments;
   i.lost_events = source.tracking().lost_events();
   i.map_revision = counts.map_revision;
@@ -145,6 +168,9 @@ unisim_status unisim_get_info(const unisim_session* session, unisim_session_info
   i.loop_returns = counts.loop_returns;
   i.loops_removed = counts.loops_removed;
   i.loops_dropped = counts.loops_dropped;
+  i.refused_pair = newest_refusal(source, PredictionKind::kPair);
+  i.refused_window = newest_refusal(source, PredictionKind::kWindow);
+  i.refused_loop = newest_refusal(source, PredictionKind::kLoop);
   unisim::write_struct(i, unisim::struct_size_of(info), info);
   return UNISIM_OK;
 }

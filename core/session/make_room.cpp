@@ -10,12 +10,7 @@ namespace unisim {
 void Session::make_keyframe_room() {
   if (!keyframes_.full()) return;
   const int32_t oldest = keyframes_.first();
-  while (settled_ <= oldest) {
-    LogLine line;
-    line << "pair " << settled_ << "," << settled_ + 1 << " given up: no prediction came";
-    line.send(config_.log, LogLevel::kWarning);
-    refuse_pair(settled_ + 1);
-  }
+  while (settled_ <= oldest) refuse_pair(settled_ + 1, RefusalReason::kLate);
   while (!broken_ && keyframes_[oldest].node >= 0) {
     if (!close_stretch()) retire_last();
   }

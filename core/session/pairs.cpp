@@ -45,11 +45,7 @@ Status Session::add_keyframe(int64_t timestamp_ns, int32_t* id) {
   }
   Window skipped;
   if (!windows_.keyframe_added(keyframes_.size(), &skipped)) {
-    if (slides()) ++counts_.submaps_refused;
-    LogLine line;
-    line << "window of keyframes " << skipped.first << ".." << skipped.last() << " skipped: "
-         << (slides() ? "too many wait for their prediction" : "max_submaps reached");
-    line.send(config_.log, LogLevel::kWarning);
+    refuse_window(skipped, RefusalReason::kRoom);
   }
   return broken_ ? Status::kInternal : Status::kOk;
 }
@@ -68,11 +64,7 @@ Status Session::add_two_view(const TwoViewInput& input) {
     if (depth_.over_two_view(input.i, &ratio)) {
       log_ratio = -ratio.log_ratio;
       if (input.center_sigma == 0.0 && ratio.scatter > config_.scatter_gate) {
-        LogLine line;
-        line << "pair " << input.i << "," << input.j << " refused: depth ratio scatter "
-             << ratio.scatter << " over " << config_.scatter_gate;
-        line.send(config_.log, LogLevel::kWarning);
-        refuse_pair(input.j);
+        refuse_pair(input.j, RefusalReason::kScatter, ratio.scatter, config_.scatter_gate);
         return Status::kOk;
       }
     } else {
@@ -90,10 +82,7 @@ Status Session::add_two_view(const TwoViewInput& input) {
   const bool in_range =
       Z_i_j.in_range() && (T_world_i * Z_i_j).in_range() && (T_world_i * input.T_i_j).in_range();
   if (!in_range) {
-    LogLine line;
-    line << "pair " << input.i << "," << input.j << " refused: its scale is out of range";
-    line.send(config_.log, LogLevel::kWarning);
-    refuse_pair(input.j);
+    refuse_pair(input.j, RefusalReason::kRange);
     return Status::kOk;
   }
   accept_pair(input, log_ratio, multiplier);
@@ -149,7 +138,8 @@ void Session::give_node(int32_t keyframe, const Sim3& T_world_kf, int32_t segmen
   counts_.last_posed = std::max(counts_.last_posed, keyframe);
 }
 
-void Session::refuse_pair(int32_t j) {
+void Session::refuse_pair(int32_t j, RefusalReason reason, double value, double limit) {
+  refusals_.add(PredictionKind::kPair, {reason, j - 1, j, value, limit});
   tracking_.pair_refused();
   Keyframe& keyframe = keyframes_[j];
   keyframe.held_from = keyframes_.has(j - 1) ? keyframes_.pose_source(j - 1) : -1;
@@ -158,7 +148,6 @@ void Session::refuse_pair(int32_t j) {
     keyframe.segment = keyframes_[keyframe.held_from].segment;
     counts_.last_posed = j;
   }
-  ++counts_.pairs_refused;
   settled_ = j;
 }
 

@@ -34,7 +34,7 @@ Status Session::reject_request(const Request& request) {
     const bool open =
         window.first == settled_ && window.count == 2 && window.last() < keyframes_.size();
     if (!open) return Status::kInvalidArgument;
-    refuse_pair(window.last());
+    refuse_pair(window.last(), RefusalReason::kHost);
     return Status::kOk;
   }
   if (request.kind != kRequestWindow) return Status::kInvalidArgument;
@@ -44,7 +44,7 @@ Status Session::reject_request(const Request& request) {
                     window.last() <= settled_for_windows();
   if (!open) return Status::kInvalidArgument;
   windows_.remove(index);
-  ++counts_.submaps_refused;
+  refuse_window(window, RefusalReason::kHost);
   return Status::kOk;
 }
 

@@ -223,13 +223,7 @@ int32_t Session::owner_of(int32_t id, int32_t m, int32_t n) const {
 /// Predictions that come in another order: windows over retired keyframes are asked for no more.
 void Session::drop_windows_before(int32_t keyframe) {
   Window dropped;
-  while (windows_.drop_before(keyframe, &dropped)) {
-    ++counts_.submaps_refused;
-    LogLine line;
-    line << "window of keyframes " << dropped.first << ".." << dropped.last()
-         << " given up: newer windows came first and its keyframes have retired";
-    line.send(config_.log, LogLevel::kWarning);
-  }
+  while (windows_.drop_before(keyframe, &dropped)) refuse_window(dropped, RefusalReason::kLate);
 }
 
 }  // namespace unisim

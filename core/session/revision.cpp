@@ -19,11 +19,7 @@ Status Session::update_submap(const SubmapUpdate& update) {
   if (!is_in_range(update, submap)) return Status::kInvalidArgument;
   const double gate = submap.is_loop ? config_.sigma_gate_loop : config_.sigma_gate;
   if (update.center_sigma > gate) {
-    LogLine line;
-    line << "new measurement of submap " << update.submap << " refused: center sigma "
-         << update.center_sigma << " over " << gate;
-    line.send(config_.log, LogLevel::kWarning);
-    refuse_submap(submap.is_loop);
+    refuse_submap(submap, RefusalReason::kSigma, update.center_sigma, gate);
     return Status::kOk;
   }
   if (update.center_sigma > 0.0) {

@@ -45,9 +45,8 @@ Status Session::add_submap(const SubmapInput& input, bool is_loop, int32_t* id) 
   submap.window_last = answered.last();
   submap.center_sigma = input.center_sigma;
   measure_views(input, is_loop, &submap);
-  if (!choose_origin(&submap) || !judge_submap(&submap) || !is_in_range(submap)) {
+  if (!choose_origin(&submap) || !judge_submap(&submap)) {
     submaps_.remove_last();
-    refuse_submap(is_loop);
     *id = -1;
     return Status::kOk;
   }
@@ -118,7 +117,10 @@ bool Session::choose_origin(Submap* submap) {
     if (view.segment < oldest || (view.segment == oldest && nearer)) best = k;
   }
   constexpr int32_t kFewestViews = 2;
-  if (best < 0 || used < kFewestViews) return false;
+  if (best < 0 || used < kFewestViews) {
+    refuse_submap(*submap, RefusalReason::kViews);
+    return false;
+  }
   submap->origin = best;
   submap->origin_keyframe = submaps_.view(*submap, best).keyframe;
   submap->segment = submaps_.view(*submap, best).segment;
@@ -136,17 +138,13 @@ bool Session::judge_submap(Submap* submap) {
   const double value = known ? submap->center_sigma : submap->scatter;
   const double gate = known ? sigma_gate : config_.scatter_gate;
   submap->multiplier = quality_multiplier(submap->center_sigma);
-  if (value <= gate) return true;
-  LogLine line;
-  begin_refusal(*submap, &line);
-  line << (known ? "center sigma " : "depth ratio scatter ") << value << " over " << gate;
-  line.send(config_.log, LogLevel::kWarning);
+  if (value > gate) {
+    refuse_submap(*submap, known ? RefusalReason::kSigma : RefusalReason::kScatter, value, gate);
+    return false;
+  }
+  if (is_in_range(*submap)) return true;
+  refuse_submap(*submap, RefusalReason::kRange);
   return false;
-}
-
-void Session::begin_refusal(const Submap& submap, LogLine* line) const {
-  *line << (submap.is_loop ? "loop" : "window") << " of keyframes " << submaps_.keyframe(submap, 0)
-        << ".." << submaps_.keyframe(submap, submap.count - 1) << " refused: ";
 }
 
 /// Depth that leaps by many orders of magnitude, again and again, leaves the range of numbers.
@@ -161,16 +159,18 @@ bool Session::is_in_range(const Submap& submap) const {
                Sim3::scaling(math::exp(view.log_c)).in_range();
     if (in_range && view.measured) in_range = joins_in_range(submap, T_world_submap, view.segment);
   }
-  if (in_range) return true;
-  LogLine line;
-  begin_refusal(submap, &line);
-  line << "its scale is out of range";
-  line.send(config_.log, LogLevel::kWarning);
-  return false;
+  return in_range;
 }
 
-void Session::refuse_submap(bool is_loop) {
-  ++(is_loop ? counts_.loops_refused : counts_.submaps_refused);
+void Session::refuse_submap(const Submap& submap, RefusalReason reason, double value,
+                            double limit) {
+  const PredictionKind kind = submap.is_loop ? PredictionKind::kLoop : PredictionKind::kWindow;
+  refusals_.add(kind, {reason, submaps_.keyframe(submap, 0),
+                       submaps_.keyframe(submap, submap.count - 1), value, limit});
+}
+
+void Session::refuse_window(const Window& window, RefusalReason reason) {
+  refusals_.add(PredictionKind::kWindow, {reason, window.first, window.last(), 0.0, 0.0});
 }
 
 /// S_m = [(s_o / rho_mo) R_o, t_o] of its origin.

@@ -139,7 +139,15 @@ AT(unisim_submap_info, T_world_submap, 272);
 AT(unisim_submap_info, center_sigma, 336);
 AT(unisim_submap_info, scatter, 344);
 
-SIZE(unisim_session_info, 112);
+SIZE(unisim_refusal, 32);
+AT(unisim_refusal, reason, 0);
+AT(unisim_refusal, first_keyframe, 4);
+AT(unisim_refusal, last_keyframe, 8);
+AT(unisim_refusal, reserved, 12);
+AT(unisim_refusal, value, 16);
+AT(unisim_refusal, limit, 24);
+
+SIZE(unisim_session_info, 208);
 AT(unisim_session_info, struct_size, 0);
 AT(unisim_session_info, state, 4);
 AT(unisim_session_info, keyframes, 8);
@@ -166,6 +174,9 @@ AT(unisim_session_info, loop_returns, 96);
 AT(unisim_session_info, loops_removed, 100);
 AT(unisim_session_info, loops_dropped, 104);
 AT(unisim_session_info, reserved_2, 108);
+AT(unisim_session_info, refused_pair, 112);
+AT(unisim_session_info, refused_window, 144);
+AT(unisim_session_info, refused_loop, 176);
 
 SIZE(unisim_retired, 104);
 AT(unisim_retired, struct_size, 0);
@@ -202,6 +213,14 @@ TEST_CASE("numbers of statuses, bits and states never move") {
   CHECK(UNISIM_LOOP_SUSPENDED == 1);
   CHECK(UNISIM_LOOP_RIGID == 2);
   CHECK(UNISIM_LOOP_REMOVED == 3);
+  CHECK(UNISIM_REFUSED_NONE == 0);
+  CHECK(UNISIM_REFUSED_SIGMA == 1);
+  CHECK(UNISIM_REFUSED_SCATTER == 2);
+  CHECK(UNISIM_REFUSED_VIEWS == 3);
+  CHECK(UNISIM_REFUSED_RANGE == 4);
+  CHECK(UNISIM_REFUSED_HOST == 5);
+  CHECK(UNISIM_REFUSED_ROOM == 6);
+  CHECK(UNISIM_REFUSED_LATE == 7);
   CHECK(UNISIM_MAX_VIEWS == 64);
   CHECK(UNISIM_FACTOR_TWO_VIEW == 1U);
   CHECK(UNISIM_FACTOR_BRIDGE == 2U);

@@ -189,6 +189,8 @@ TEST_CASE("windows over retired keyframes are given up") {
     host.optimize();
   }
   CHECK(host.info().submaps_refused == 1);
+  CHECK(host.info().refused_window.reason == UNISIM_REFUSED_LATE);
+  CHECK(host.info().refused_window.first_keyframe == 0);
   const Views late = world.views(ids(0, 8));
   const unisim_submap submap = late.submap();
   int32_t id = -1;
