@@ -155,6 +155,11 @@ TEST_CASE("the printed configuration can be read back and says the same") {
   CHECK(second.out == first.out);
 }
 
+TEST_CASE("the window slides unless a batch is asked for") {
+  CHECK(has(run_replay({"--print-config"}).out, "window_submaps = 24"));
+  CHECK(has(run_replay({"--print-config", "--batch"}).out, "window_submaps = 0"));
+}
+
 TEST_CASE("a rendered sequence gives a trajectory, its figures and the same bytes each time") {
   const TempFolder folder;
   const std::string out = folder / "first";

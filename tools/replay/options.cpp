@@ -33,6 +33,7 @@ struct Given {
   std::optional<double> focal;
   std::vector<std::string> disabled;
   bool every_frame = false;
+  bool batch = false;
   bool realtime = false;
   bool no_loop = false;
   std::string model;
@@ -67,6 +68,9 @@ void add_method_options(CLI::App* app, Options* options, Given* given) {
   app->add_option("--window", given->window, "keyframes of a submap (default: 16)");
   app->add_option("--overlap", given->overlap,
                   "keyframes shared by neighbouring submaps (default: 8; of networks 2)");
+  app->add_flag("--batch", given->batch,
+                "keep the whole map within a declared number of keyframes (default: the newest 24 "
+                "submaps and a skeleton of the older ones, in the same memory for ever)");
   app->add_option("--config", given->config, "TOML file, see --print-config");
   app->add_flag("--print-config", options->print_config, "print the effective configuration, end");
   app->add_flag("--no-loop", given->no_loop, "close no loops (none are closed in this version)");
@@ -128,6 +132,7 @@ void apply(const Given& given, Settings* settings) {
     settings->window_overlap_given = true;
   }
   if (given.focal) settings->geometric.focal_px = *given.focal;
+  if (given.batch) settings->session.window_submaps = 0;
   if (given.every_frame) settings->pipeline.every_frame = true;
   if (given.threads) settings->onnx.threads = *given.threads;
   if (given.memory_mb) settings->onnx.memory_mb = *given.memory_mb;

@@ -167,7 +167,7 @@ int replay(const Options& options, const std::atomic<bool>& stop) {
   const PredictorPtr predictor = open_predictor(options, &settings, &notes);
 
   unisim_config config = settings.session;
-  if (!options.settings.max_keyframes_given) {
+  if (config.window_submaps == 0 && !options.settings.max_keyframes_given) {
     config.max_keyframes =
         pipeline::keyframe_capacity(source->frame_count(source.get()),
                                     options.settings.pipeline.keyframes, kUnknownLengthKeyframes);

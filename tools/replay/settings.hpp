@@ -20,7 +20,7 @@ struct Settings {
   pipeline::Options pipeline;
   bool window_size_given = false;     ///< else a recording says
   bool window_overlap_given = false;  ///< else it follows from the predictor
-  bool max_keyframes_given = false;   ///< else it follows from the length of the sequence
+  bool max_keyframes_given = false;   ///< else a batch takes the length of the sequence
 };
 
 Settings default_settings();
