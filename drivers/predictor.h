@@ -81,6 +81,9 @@ typedef struct unisim_predictor_info {
   int32_t restarts;      /**< times track was lost and a new segment begun */
   int32_t rotation_only; /**< keyframes recognised as turned on the spot */
   int32_t static_frames; /**< frames recognised as not moving */
+  const char* no_start;  /**< while not initialised: one line of what was seen, why it gave no start
+                            and what would help; NULL: nothing to tell. Borrowed until the next
+                            call */
 } unisim_predictor_info;
 
 /** A predictor. Free with destroy(predictor). Functions marked optional may be NULL. */

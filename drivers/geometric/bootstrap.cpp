@@ -62,10 +62,11 @@ void Bootstrap::correspondences(const State& state, int32_t id) {
 StartOutcome Bootstrap::attempt(State* state, int32_t id, MapAdjustment* adjustment,
                                 LandmarkGrowth* growth, KeyframePose* poses) {
   reference_ = std::max({reference_, state->segment_start, id - kMaxGap});
-  if (id <= reference_) return StartOutcome::kNotMoving;
+  if (id <= reference_) return StartOutcome::kFirst;
+  if (state->tracks.size() < kMinCommon) return StartOutcome::kTooFewFeatures;
   // Tracks that die fast leave too few in common with an old reference: take a newer one.
   for (correspondences(*state, id); from_.size() < kMinCommon; correspondences(*state, id)) {
-    if (++reference_ >= id) return StartOutcome::kTooFewFeatures;
+    if (++reference_ >= id) return StartOutcome::kTracksDie;
   }
   std::vector<double> displacement(from_.size());
   for (size_t i = 0; i < from_.size(); ++i) displacement[i] = cv::norm(to_[i] - from_[i]);
@@ -78,15 +79,17 @@ StartOutcome Bootstrap::attempt(State* state, int32_t id, MapAdjustment* adjustm
     return StartOutcome::kRotationOnly;
   }
   const CameraModel camera = state->intrinsics.camera;
-  if (relative_pose(state, id) && adjust(state, id, adjustment, growth, poses)) {
-    return StartOutcome::kStarted;
+  StartOutcome outcome = relative_pose(state, id);
+  if (outcome == StartOutcome::kStarted && !adjust(state, id, adjustment, growth, poses)) {
+    outcome = StartOutcome::kNoGeometry;
   }
+  if (outcome == StartOutcome::kStarted) return outcome;
   undo(state, id);
   state->intrinsics.camera = camera;
-  return StartOutcome::kNoGeometry;
+  return outcome;
 }
 
-bool Bootstrap::relative_pose(State* state, int32_t id) {
+StartOutcome Bootstrap::relative_pose(State* state, int32_t id) {
   const CameraModel& camera = state->intrinsics.camera;
   const cv::Matx33d calibration(camera.focal_px, 0, camera.cx, 0, camera.focal_px, camera.cy, 0, 0,
                                 1);
@@ -94,7 +97,7 @@ bool Bootstrap::relative_pose(State* state, int32_t id) {
   const cv::Mat essential =
       cv::findEssentialMat(from_, to_, cv::Mat(calibration), cv::USAC_ACCURATE, 0.999,
                            kEssentialGate * state->pixel_scale, mask);
-  if (essential.rows != 3 || mask.total() != from_.size()) return false;
+  if (essential.rows != 3 || mask.total() != from_.size()) return StartOutcome::kNoGeometry;
   inlier_.assign(mask.begin<uint8_t>(), mask.end<uint8_t>());
   cv::Matx33d rotation;
   cv::Vec3d translation;
@@ -106,14 +109,16 @@ bool Bootstrap::relative_pose(State* state, int32_t id) {
     for (int c = 0; c < 3; ++c) second.pose.R(r, c) = rotation(r, c);
     second.pose.t[r] = translation[r];
   }
-  if (!second.pose.R.allFinite() || !second.pose.t.allFinite()) return false;
+  if (!second.pose.R.allFinite() || !second.pose.t.allFinite()) return StartOutcome::kNoGeometry;
   first.posed = second.posed = true;
   double parallax = 0;
   const int placed = place_landmarks(state, id, &parallax);
   const double common = static_cast<double>(from_.size());
   const bool last_chance = common < kLastChanceShare * first.observations;
-  return placed >= kMinPlaced && placed >= kMinPlacedShare * common &&
-         parallax >= (last_chance ? kLastChanceParallaxRad : kMinMedianParallaxRad);
+  if (placed < kMinPlaced || placed < kMinPlacedShare * common) return StartOutcome::kNoGeometry;
+  return parallax >= (last_chance ? kLastChanceParallaxRad : kMinMedianParallaxRad)
+             ? StartOutcome::kStarted
+             : StartOutcome::kNoParallax;
 }
 
 int Bootstrap::place_landmarks(State* state, int32_t id, double* median_parallax) {

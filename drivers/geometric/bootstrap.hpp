@@ -8,18 +8,10 @@
 #include "drivers/geometric/keyframe_pose.hpp"
 #include "drivers/geometric/landmark_growth.hpp"
 #include "drivers/geometric/map_adjustment.hpp"
+#include "drivers/geometric/start_statistics.hpp"
 #include "drivers/geometric/state.hpp"
 
 namespace unisim::geometric {
-
-/// Why a start was not possible yet.
-enum class StartOutcome {
-  kStarted,
-  kTooFewFeatures,  ///< not enough tracks in common
-  kNotMoving,       ///< hardly any displacement
-  kRotationOnly,    ///< displaced, but as by a turn on the spot
-  kNoGeometry       ///< displaced, but no reliable relative pose
-};
 
 class Bootstrap {
  public:
@@ -34,7 +26,7 @@ class Bootstrap {
 
  private:
   void correspondences(const State& state, int32_t id);
-  bool relative_pose(State* state, int32_t id);
+  StartOutcome relative_pose(State* state, int32_t id);
   int place_landmarks(State* state, int32_t id, double* median_parallax);
   void set_unit(State* state, int32_t id);
   void pose_between(State* state, int32_t id, KeyframePose* poses);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/geometric/start_report.hpp"
+
 namespace unisim::geometric {
 
 namespace {
@@ -80,6 +82,11 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
   window_ids_.reserve(static_cast<size_t>(config.max_keyframes));
 }
 
+void Mapper::see(const unisim_image& image) {
+  front_end_.see(image, &state_.tracks);
+  if (counts_.started == 0) start_.see_frame(front_end_.gray());
+}
+
 void Mapper::note_followed() {
   for (int32_t slot = 0; slot < state_.map.landmark_capacity(); ++slot) {
     state_.map.landmark(slot).followed = false;
@@ -106,6 +113,10 @@ void Mapper::detect_tracks() {
 
 bool Mapper::add_keyframe(int32_t id) {
   front_end_.begin_keyframe(&state_.tracks);
+  if (counts_.started == 0) {
+    start_.see_keyframe(state_.tracks, front_end_.sealed(), state_.pixel_scale,
+                        front_end_.current().gray);
+  }
   note_followed();
   bool adjusted = false;
   if (background_.running() && id >= background_.due_at(state_.config.adjust_latency)) {
@@ -126,13 +137,14 @@ void Mapper::try_start(int32_t id) {
   observe_tracks(0);
   detect_tracks();
   state_.posed = 0;
-  start_outcome_ = bootstrap_.attempt(&state_, id, &window_, &growth_, &poses_);
-  if (start_outcome_ == StartOutcome::kRotationOnly) ++counts_.rotation_only;
-  if (start_outcome_ != StartOutcome::kStarted) return;
+  const StartOutcome outcome = bootstrap_.attempt(&state_, id, &window_, &growth_, &poses_);
+  if (counts_.started == 0) start_.note_outcome(outcome, state_.tracks.size());
+  if (outcome == StartOutcome::kRotationOnly) ++counts_.rotation_only;
+  if (outcome != StartOutcome::kStarted) return;
   state_.initialised = true;
   state_.median_depth = 1;
   lost_in_row_ = 0;
-  ++counts_.started;
+  if (++counts_.started == 1 && start_.two_eyes()) remark_ = kTwoEyes;
   note_motion(id);
   revive_.store_patches(state_, front_end_.current(), id, &patches_);
 }

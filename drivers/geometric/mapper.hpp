@@ -2,7 +2,8 @@
 // The running map: what is done with each frame and each keyframe, and in which order.
 #pragma once
 
-#include <memory>
+#include <string>
+#include <utility>
 
 #include "drivers/geometric/background_adjustment.hpp"
 #include "drivers/geometric/bootstrap.hpp"
@@ -27,7 +28,7 @@ class Mapper {
  public:
   Mapper(const unisim_geometric_config& config, const cv::Size& size);
 
-  void see(const unisim_image& image) { front_end_.see(image, &state_.tracks); }
+  void see(const unisim_image& image);
   TrackMotion motion() { return front_end_.motion(state_.tracks); }
   /// The frame seen last is keyframe `id`. @return true when the whole state has been adjusted anew
   bool add_keyframe(int32_t id);
@@ -35,6 +36,8 @@ class Mapper {
   FramePose frame_pose();
   /// Adjusts the whole state one last time. @return true when it changed
   bool finish();
+  /// Something worth telling since the last call, empty: nothing.
+  std::string take_remark() { return std::exchange(remark_, std::string()); }
   /// Precision of a window cut from the present state; 0 when not known.
   double window_sigma(const int32_t* ids, size_t count);
 
@@ -44,7 +47,7 @@ class Mapper {
 
   const State& state() const { return state_; }
   const MapperCounts& counts() const { return counts_; }
-  StartOutcome start_outcome() const { return start_outcome_; }
+  const StartStatistics& start_statistics() const { return start_; }
   int64_t bytes() const;
 
  private:
@@ -57,7 +60,6 @@ class Mapper {
   /// Poses a keyframe that was lost when it was new, after a later one has been found.
   void recover(int32_t id, const CameraPose& near);
   void begin_segment(int32_t id);
-  void grow(int32_t id);
   void adjust_window(int32_t id);
   void adjust_whole(int32_t id);
   void note_motion(int32_t id);
@@ -73,7 +75,8 @@ class Mapper {
   BackgroundAdjustment background_;
   std::vector<int32_t> window_ids_;
   MapperCounts counts_;
-  StartOutcome start_outcome_ = StartOutcome::kNotMoving;
+  StartStatistics start_;  // until the first start
+  std::string remark_;
   int lost_in_row_ = 0;
   int32_t adjusted_posed_ = 0;  // keyframes posed when the whole state was last adjusted
 };

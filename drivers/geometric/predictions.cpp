@@ -20,21 +20,6 @@ bool finite(const unisim_sim3& pose) {
   return std::isfinite(sum);
 }
 
-const char* start_text(StartOutcome outcome) {
-  switch (outcome) {
-    case StartOutcome::kTooFewFeatures:
-      return "geometric: too few features to start; more texture or slower motion is needed";
-    case StartOutcome::kRotationOnly:
-      return "geometric: the camera only turns; it must also move sideways to start";
-    case StartOutcome::kNoGeometry:
-      return "geometric: not enough parallax to start yet; keep moving";
-    case StartOutcome::kNotMoving:
-    case StartOutcome::kStarted:
-      break;
-  }
-  return "geometric: not enough motion to start yet";
-}
-
 }  // namespace
 
 Predictions::Predictions(const unisim_geometric_config& config, const cv::Size& image)
@@ -72,7 +57,7 @@ int Predictions::pair(const Mapper& mapper, int32_t i, int32_t j, unisim_pair_pr
   const Keyframe& first = state.map.keyframe(i);
   const Keyframe& second = state.map.keyframe(j);
   if (!state.initialised && first.segment == state.segment && second.segment == state.segment) {
-    *why = start_text(mapper.start_outcome());
+    *why = "geometric: no start found yet";
     return UNISIM_PREDICTION_PENDING;
   }
   const bool may_recover = !second.posed && j == state.map.end_id() - 1 && first.posed;
@@ -131,6 +116,8 @@ int Predictions::window(Mapper* mapper, const int32_t* ids, int32_t count,
   cut_views(state, out);
   out->center_sigma = ids_.size() >= 3 ? mapper->window_sigma(ids_.data(), ids_.size()) : 0;
   out->token = windows_.give(state, ids_.data(), ids_.size(), out->center_sigma);
+  remark_ = mapper->take_remark();
+  if (!remark_.empty()) out->remark = remark_.c_str();
   return UNISIM_PREDICTION_OK;
 }
 

@@ -2,6 +2,7 @@
 // Turns the running state into the predictions of drivers/predictor.h, in buffers of fixed size.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "drivers/geometric/depth_grid.hpp"
@@ -52,6 +53,7 @@ class Predictions {
   WindowCut windows_;
   WindowRevision revision_;
   bool wide_is_due_ = false;
+  std::string remark_;  // of the last window
 };
 
 }  // namespace unisim::geometric

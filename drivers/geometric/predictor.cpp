@@ -12,6 +12,7 @@
 #include "drivers/geometric/geometric.h"
 #include "drivers/geometric/mapper.hpp"
 #include "drivers/geometric/predictions.hpp"
+#include "drivers/geometric/start_report.hpp"
 
 namespace unisim::geometric {
 namespace {
@@ -29,7 +30,10 @@ struct GeometricPredictor {
   cv::Size size;
   int32_t keyframes = 0;
   int32_t static_frames = 0;
+  int64_t left_out = 0;  // frames that could not be taken
   std::string message;
+  std::string left_out_why;
+  std::string no_start;  // what info() says of a run without a start
 };
 
 GeometricPredictor* self(unisim_predictor* predictor) {
@@ -52,14 +56,19 @@ int guarded(unisim_predictor* predictor, Body&& body) {
 
 /// Makes the state for the first image. @return false with a message for an unusable image
 bool accept_image(GeometricPredictor* me, const unisim_image& image) {
-  if (image.data == nullptr || image.width < kMinSide || image.height < kMinSide) {
-    me->message = "geometric: image of " + std::to_string(image.width) + "x" +
-                  std::to_string(image.height) + " pixels is too small or empty; frame left out";
+  if (image.data == nullptr) {
+    me->message = "geometric: the frame has no pixels";
+    return false;
+  }
+  if (image.width < kMinSide || image.height < kMinSide) {
+    me->message = "geometric: " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+                  " pixels are too few; give images of at least " + std::to_string(kMinSide) + "x" +
+                  std::to_string(kMinSide);
     return false;
   }
   if (image.format != UNISIM_PIXEL_GRAY8 && image.format != UNISIM_PIXEL_BGR8) {
-    me->message = "geometric: pixel format " + std::to_string(image.format) +
-                  " is neither gray nor BGR; frame left out";
+    me->message =
+        "geometric: pixel format " + std::to_string(image.format) + " is neither gray nor BGR";
     return false;
   }
   const cv::Size size(image.width, image.height);
@@ -71,7 +80,7 @@ bool accept_image(GeometricPredictor* me, const unisim_image& image) {
   if (size != me->size) {
     me->message = "geometric: image size changed from " + std::to_string(me->size.width) + "x" +
                   std::to_string(me->size.height) + " to " + std::to_string(size.width) + "x" +
-                  std::to_string(size.height) + "; frame left out";
+                  std::to_string(size.height);
     return false;
   }
   return true;
@@ -80,7 +89,11 @@ bool accept_image(GeometricPredictor* me, const unisim_image& image) {
 int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motion* motion) {
   *motion = {-1.0, -1.0, 0};
   return guarded(predictor, [&](GeometricPredictor* me) {
-    if (!accept_image(me, frame->image)) return UNISIM_PREDICTION_REJECTED;
+    if (!accept_image(me, frame->image)) {
+      ++me->left_out;
+      me->left_out_why = me->message;
+      return UNISIM_PREDICTION_REJECTED;
+    }
     me->mapper->see(frame->image);
     const TrackMotion moved = me->mapper->motion();
     motion->tracked = moved.kept;
@@ -167,10 +180,26 @@ int finish(unisim_predictor* predictor) {
   });
 }
 
+/// One line on why there is no map.
+std::string why_no_start(const GeometricPredictor& me) {
+  std::string line;
+  if (me.mapper) line = start_report(me.mapper->start_statistics(), me.size);
+  if (me.left_out == 0) return line;
+  line += line.empty() ? "no start: " : "; ";
+  return line + std::to_string(me.left_out) + " frames left out, the last: " + me.left_out_why;
+}
+
 void info(unisim_predictor* predictor, unisim_predictor_info* out) {
-  const GeometricPredictor* me = self(predictor);
+  GeometricPredictor* me = self(predictor);
   *out = {};
   out->static_frames = me->static_frames;
+  if (!me->mapper || me->mapper->counts().started == 0) {
+    guarded(predictor, [&](GeometricPredictor*) {
+      me->no_start = why_no_start(*me);
+      out->no_start = me->no_start.c_str();
+      return UNISIM_PREDICTION_OK;
+    });
+  }
   if (!me->mapper) return;
   const Intrinsics& intrinsics = me->mapper->state().intrinsics;
   const MapperCounts& counts = me->mapper->counts();

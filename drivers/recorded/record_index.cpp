@@ -165,8 +165,9 @@ const char* RecordIndex::set_info(const RecordRef& record, const AlignedBytes& k
       !std::isfinite(info.radial_k1)) {
     return "focal length or distortion is not a number";
   }
-  info_ = {info.focal_px,    info.focal_sigma_px, info.radial_k1,     info.state_bytes,
-           info.initialised, info.restarts,       info.rotation_only, info.static_frames};
+  info_ = {info.focal_px,      info.focal_sigma_px, info.radial_k1,
+           info.state_bytes,   info.initialised,    info.restarts,
+           info.rotation_only, info.static_frames,  nullptr};
   return nullptr;
 }
 

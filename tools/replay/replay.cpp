@@ -93,6 +93,16 @@ int exit_code(pipeline::Outcome outcome, const Options& options) {
 
 void say_problem(const std::string& line) { tools::complain(kProgramName, line); }
 
+/// The images were read and no keyframe got a pose: what the predictor saw, or what is known here.
+std::string why_no_pose(const pipeline::Result& result) {
+  if (result.predictor.no_start != nullptr) return result.predictor.no_start;
+  const int32_t keyframes = result.progress.keyframes;
+  return "no keyframe has a pose: " + std::to_string(result.progress.frames) + " frames, " +
+         std::to_string(keyframes) +
+         (keyframes < 2 ? " keyframes; a pose takes two or more: lower --stride"
+                        : " keyframes, none with a usable prediction");
+}
+
 /// The run left no pose: says why.
 int report_nothing(const pipeline::Result& result, const Options& options) {
   std::string line = result.message;
@@ -104,10 +114,7 @@ int report_nothing(const pipeline::Result& result, const Options& options) {
       line = "no readable frame among " + std::to_string(progress.frames_bad) +
              "; give a sequence with images";
     } else {
-      line = "not enough motion: " + std::to_string(progress.frames) + " frames (" +
-             std::to_string(result.predictor.static_frames) + " still, " +
-             std::to_string(result.predictor.rotation_only) +
-             " keyframes turned on the spot) give no depth; move the camera sideways";
+      line = why_no_pose(result);
     }
   } else {
     line += "; no pose was known yet, nothing is written";
