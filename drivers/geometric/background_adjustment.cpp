@@ -14,21 +14,12 @@ constexpr size_t kSpreadViews = 16;  // of a wide window
 
 BackgroundAdjustment::BackgroundAdjustment(const BundleCapacity& capacity, const MapCapacity& map,
                                            bool threaded)
-    : adjustment_(capacity, map), adjusted_(static_cast<size_t>(map.landmarks), 0) {
+    : adjustment_(capacity, map),
+      adjusted_(static_cast<size_t>(map.landmarks), 0),
+      worker_([this] { work(); }, threaded) {
   keyframes_.reserve(static_cast<size_t>(map.keyframes));
   spread_.reserve(kSpreadViews);
   ratios_.reserve(static_cast<size_t>(map.observations_per_keyframe));
-  if (threaded) thread_ = std::thread([this] { loop(); });
-}
-
-BackgroundAdjustment::~BackgroundAdjustment() {
-  if (!thread_.joinable()) return;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    stop_ = true;
-  }
-  changed_.notify_all();
-  thread_.join();
 }
 
 void BackgroundAdjustment::start(const State& state, int32_t keyframe, int iterations) {
@@ -43,15 +34,7 @@ void BackgroundAdjustment::start(const State& state, int32_t keyframe, int itera
   started_at_ = keyframe;
   iterations_ = iterations;
   pending_ = true;
-  if (!thread_.joinable()) {
-    work();
-    return;
-  }
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    job_ = true;
-  }
-  changed_.notify_all();
+  worker_.start();
 }
 
 void BackgroundAdjustment::choose_spread() {
@@ -71,25 +54,6 @@ void BackgroundAdjustment::work() {
   const BundlePrecision precision = adjustment_.precision(spread_.data(), spread_.size());
   log_focal_sigma_ = precision.valid ? precision.log_focal_sigma : 0;
   spread_sigma_ = precision.valid ? precision.center_sigma : 0;
-}
-
-void BackgroundAdjustment::loop() {
-  std::unique_lock<std::mutex> lock(mutex_);
-  for (;;) {
-    changed_.wait(lock, [this] { return job_ || stop_; });
-    if (stop_) return;
-    lock.unlock();
-    work();
-    lock.lock();
-    job_ = false;
-    changed_.notify_all();
-  }
-}
-
-void BackgroundAdjustment::wait() {
-  if (!thread_.joinable()) return;
-  std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait(lock, [this] { return !job_; });
 }
 
 BackgroundAdjustment::Move BackgroundAdjustment::move_of_newest(const State& state) {
@@ -158,8 +122,8 @@ void BackgroundAdjustment::take(State* state) {
 }
 
 bool BackgroundAdjustment::merge(State* state) {
-  wait();
   pending_ = false;
+  worker_.wait();
   if (!usable_ || segment_ != state->segment || keyframes_.empty()) return false;
   if (!state->map.holds(keyframes_.back())) return false;
   move_rest(move_of_newest(*state), state);

@@ -4,11 +4,9 @@
 #pragma once
 
 #include <algorithm>
-#include <condition_variable>
-#include <mutex>
-#include <thread>
 #include <vector>
 
+#include "drivers/geometric/background_worker.hpp"
 #include "drivers/geometric/map_adjustment.hpp"
 #include "drivers/geometric/state.hpp"
 
@@ -18,9 +16,6 @@ class BackgroundAdjustment {
  public:
   /// @param threaded false: the work is done within start(); the results are the same
   BackgroundAdjustment(const BundleCapacity& capacity, const MapCapacity& map, bool threaded);
-  ~BackgroundAdjustment();
-  BackgroundAdjustment(const BackgroundAdjustment&) = delete;
-  BackgroundAdjustment& operator=(const BackgroundAdjustment&) = delete;
 
   bool running() const { return pending_; }
   /// Keyframe with which the pending adjustment is due to be merged. A larger state takes longer.
@@ -36,7 +31,8 @@ class BackgroundAdjustment {
   /// Copies the segment's posed keyframes and begins.
   void start(const State& state, int32_t keyframe, int iterations);
   /// Waits for the result and takes it into the state; what was added meanwhile moves along.
-  /// @return false when the result no longer fits (the segment ended)
+  /// Throws what the adjustment threw. @return false when the result no longer fits (the segment
+  /// ended)
   bool merge(State* state);
 
   int64_t bytes() const { return adjustment_.bytes(); }
@@ -50,8 +46,6 @@ class BackgroundAdjustment {
   };
   void choose_spread();
   void work();
-  void loop();
-  void wait();
   Move move_of_newest(const State& state);
   void move_rest(const Move& move, State* state);
   void take(State* state);
@@ -68,12 +62,7 @@ class BackgroundAdjustment {
   double log_focal_sigma_ = 0;
   double spread_sigma_ = 0;
   bool pending_ = false;
-
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool job_ = false;
-  bool stop_ = false;
-  std::thread thread_;
+  BackgroundWorker worker_;  // last: its thread ends before what it works on
 };
 
 }  // namespace unisim::geometric

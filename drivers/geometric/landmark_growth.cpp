@@ -112,7 +112,6 @@ void LandmarkGrowth::guess_depth(State* state, int32_t slot, int32_t keyframe,
   mark.position = position;
   mark.state = LandmarkState::kPlaced;
   mark.soft = true;
-  mark.prior_depth = depth;
 }
 
 void LandmarkGrowth::run(State* state, int32_t keyframe) {

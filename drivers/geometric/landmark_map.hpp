@@ -61,7 +61,6 @@ struct Landmark {
   ObservationRef first;
   ObservationRef last;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< world
-  double prior_depth = 0;  ///< soft: guessed depth in its first keyframe
 };
 
 class LandmarkMap {

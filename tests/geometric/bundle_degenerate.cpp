@@ -151,12 +151,10 @@ TEST_CASE("a problem refuses what would break its order or capacity") {
   REQUIRE(problem.add_camera(CameraPose(), true) == -1);
   REQUIRE(problem.add_point(Eigen::Vector3d::Zero()) == 0);
   REQUIRE(problem.add_point(Eigen::Vector3d::Zero()) == -1);
-  REQUIRE_FALSE(problem.add_depth_prior(1.0, 1.0));
   REQUIRE(problem.add_observation(1, 1.0, 1.0, 1.0));
   REQUIRE_FALSE(problem.add_observation(1, 1.0, 1.0, 1.0));
   REQUIRE_FALSE(problem.add_observation(0, 1.0, 1.0, 1.0));
   REQUIRE_FALSE(problem.add_observation(2, 1.0, 1.0, 1.0));
-  REQUIRE_FALSE(problem.add_depth_prior(1.0, 0.0));
   problem.drop_point();
   REQUIRE(problem.point_count() == 0);
   REQUIRE(problem.observation_count() == 0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Analytic Jacobians of the bundle factors against central differences.
-#include "drivers/geometric/bundle/depth_prior.hpp"
 #include "drivers/geometric/bundle/reprojection_residual.hpp"
 #include "drivers/geometric/bundle/robust_cost.hpp"
 #include "tests/geometric/bundle_scene.hpp"
@@ -60,8 +59,6 @@ Eigen::Vector2d reprojection(const State& s) {
                             s.v, kWeight);
 }
 
-double prior(const State& s) { return depth_prior(s.pose.R, s.pose.apply(s.point), 0.35, 0.1).r; }
-
 }  // namespace
 
 TEST_CASE("reprojection Jacobians agree with central differences") {
@@ -79,22 +76,6 @@ TEST_CASE("reprojection Jacobians agree with central differences") {
           (reprojection(moved(s, k, kStep)) - reprojection(moved(s, k, -kStep))) / (2.0 * kStep);
       INFO("unknown " << k);
       REQUIRE((numeric - analytic.col(k)).norm() < 1e-5 * (1.0 + numeric.norm()));
-    }
-  }
-}
-
-TEST_CASE("depth prior Jacobians agree with central differences") {
-  std::mt19937 random(12);
-  for (int trial = 0; trial < 20; ++trial) {
-    const State s = random_state(&random);
-    const DepthPrior J = depth_prior(s.pose.R, s.pose.apply(s.point), 0.35, 0.1);
-    Eigen::Matrix<double, 9, 1> analytic;
-    analytic << J.camera, J.point;
-    for (int k = 0; k < 9; ++k) {
-      const double numeric =
-          (prior(moved(s, k, kStep)) - prior(moved(s, k, -kStep))) / (2.0 * kStep);
-      INFO("unknown " << k);
-      REQUIRE(numeric == Approx(analytic[k]).epsilon(1e-5).margin(1e-6));
     }
   }
 }

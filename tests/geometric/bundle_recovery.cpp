@@ -131,27 +131,6 @@ TEST_CASE("a prior on the focal length decides where the data do not") {
   REQUIRE(problem.intrinsics.k1 == scene.model.k1);
 }
 
-TEST_CASE("a depth prior places a point that one camera sees") {
-  const bundle_scene::Scene scene = bundle_scene::make({});
-  BundleCapacity capacity = bundle_scene::capacity(scene);
-  ++capacity.points;
-  ++capacity.observations;
-  BundleProblem problem(capacity);
-  bundle_scene::fill(scene, 2, &problem);
-  const CameraPose& pose = scene.poses[1];
-  const Eigen::Vector3d start = pose.R.transpose() * (Eigen::Vector3d(0.1, 0.2, 2.0) - pose.t);
-  const int soft = problem.add_point(start);
-  Eigen::Vector2d pixel;
-  REQUIRE(scene.model.project(Eigen::Vector3d(0.12, 0.2, 2.0), &pixel));
-  REQUIRE(problem.add_observation(1, pixel.x(), pixel.y(), 1.0));
-  REQUIRE(problem.add_depth_prior(1.0 / 3.0, 0.1));
-  BundleAdjuster adjuster(capacity);
-  adjuster.solve(&problem, thorough());
-  const Eigen::Vector3d y = pose.apply(problem.point(soft).position);
-  REQUIRE(y.z() == Approx(3.0).epsilon(1e-6));
-  REQUIRE(y.x() / y.z() == Approx(0.06).epsilon(1e-6));
-}
-
 TEST_CASE("the same problem gives the same bytes, whatever was solved before") {
   bundle_scene::Options options;
   options.noise_px = 0.5;

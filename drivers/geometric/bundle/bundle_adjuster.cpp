@@ -39,8 +39,7 @@ bool valid(const BundleProblem& problem, const BundleOptions& options) {
     if (!pose.R.allFinite() || !pose.t.allFinite()) return false;
   }
   for (int i = 0; i < problem.point_count(); ++i) {
-    const BundlePoint& point = problem.point(i);
-    if (!point.position.allFinite() || !std::isfinite(point.prior_inverse_depth)) return false;
+    if (!problem.point(i).position.allFinite()) return false;
   }
   for (int i = 0; i < problem.observation_count(); ++i) {
     const BundleObservation& seen = problem.observation(i);

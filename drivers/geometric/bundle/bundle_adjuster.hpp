@@ -55,13 +55,13 @@ struct BundlePrecision {
 
 /// Bundle adjustment. Cost: sum of Huber(|r|) with r = weight / pixel_scale *
 /// (f * (x / z, y / z) - undistorted pixel minus centre), plus priors. Points behind a camera cost
-/// a large constant and pull on nothing; points with fewer than two usable observations and no
-/// depth prior are left as they are.
+/// a large constant and pull on nothing; points with fewer than two usable observations are left as
+/// they are.
 ///
 /// Gauge: fixed cameras hold it. When none is fixed, the first camera is held for the solve. Scale,
-/// where fewer than two centres are fixed and no depth prior says otherwise, is left to the
-/// damping: the step has no component along it to first order, so the unit of the start survives; a
-/// caller who needs an exact unit rescales afterwards.
+/// where fewer than two centres are fixed, is left to the damping: the step has no component along
+/// it to first order, so the unit of the start survives; a caller who needs an exact unit rescales
+/// afterwards.
 ///
 /// Single thread; same problem, same bytes out. Nothing allocates after construction.
 class BundleAdjuster {

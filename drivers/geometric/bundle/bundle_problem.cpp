@@ -71,15 +71,6 @@ void BundleProblem::drop_point() {
   points_.pop_back();
 }
 
-bool BundleProblem::add_depth_prior(double inverse_depth, double sigma) {
-  if (points_.empty() || points_.back().count == 0 || !(sigma > 0.0)) return false;
-  BundlePoint& point = points_.back();
-  point.prior_observation = observation_count() - 1;
-  point.prior_inverse_depth = inverse_depth;
-  point.prior_sigma = sigma;
-  return true;
-}
-
 double BundleProblem::reprojection_error_px(const BundlePoint& point, int i) const {
   const BundleObservation& seen = observation(i);
   const CameraModel model = intrinsics.model();

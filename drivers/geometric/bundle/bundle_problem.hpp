@@ -30,9 +30,6 @@ struct BundlePoint {
   Eigen::Vector3d position;  ///< in the world
   std::int32_t first = 0;
   std::int32_t count = 0;
-  std::int32_t prior_observation = -1;  ///< absolute index; -1: no prior on its inverse depth
-  double prior_inverse_depth = 0.0;     ///< seen from the camera of that observation
-  double prior_sigma = 0.0;             ///< of the inverse depth
 };
 
 /// One point seen by one camera.
@@ -84,11 +81,6 @@ class BundleProblem {
 
   /// Takes the newest point back with its observations (say, because too few were found).
   void drop_point();
-
-  /// Says that the newest point, seen by the camera of its newest observation, has this inverse
-  /// depth (1 / z) within `sigma` (same unit). One prior per point; the last one counts.
-  /// @return false: the newest point has no observation yet, or sigma is not positive
-  bool add_depth_prior(double inverse_depth, double sigma);
 
   const BundleCapacity& capacity() const { return capacity_; }
   int camera_count() const { return static_cast<int>(cameras_.size()); }

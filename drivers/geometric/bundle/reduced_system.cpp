@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/geometric/bundle/depth_prior.hpp"
 #include "drivers/geometric/bundle/robust_cost.hpp"
 
 namespace unisim::geometric {
@@ -49,7 +48,7 @@ bool ReducedSystem::layout(const BundleProblem& problem) {
   int active = 0;
   for (int p = 0; p < problem.point_count(); ++p) {
     const BundlePoint& point = problem.point(p);
-    int seen = point.prior_observation >= 0 ? 1 : 0;
+    int seen = 0;
     for (int o = point.first; o < point.first + point.count; ++o) {
       seen += problem.observation(o).weight > 0.0 ? 1 : 0;
     }
@@ -147,25 +146,6 @@ void ReducedSystem::add_observation(const BundleProblem& problem, const BundleOp
   }
 }
 
-void ReducedSystem::add_depth_prior(const BundleProblem& problem, const BundlePoint& point,
-                                    PointSums* sums) {
-  const Eigen::Vector3d& y = scratch_[at(point.prior_observation - point.first)];
-  if (!(y.z() > kMinDepth)) return;
-  const int camera = problem.observation(point.prior_observation).camera;
-  const DepthPrior prior =
-      depth_prior(problem.camera(camera).pose.R, y, point.prior_inverse_depth, point.prior_sigma);
-  sums->V.noalias() += prior.point * prior.point.transpose();
-  sums->b -= prior.r * prior.point;
-  const int slot = slots_[at(camera)];
-  if (slot < 0) return;
-  cameras_[at(slot)].U.noalias() += prior.camera * prior.camera.transpose();
-  Eigen::Map<Vector6d>(&gradient_[at(6 * slot)]) -= prior.r * prior.camera;
-  // The camera sees the point, so its coupling is there already: among the newest ones.
-  int i = coupling_count_ - 1;
-  while (couplings_[at(i)].slot != slot) --i;
-  couplings_[at(i)].Y.noalias() += prior.camera * prior.point.transpose();
-}
-
 void ReducedSystem::eliminate(const PointSums& sums, double lambda, PointFactor* factor) {
   Eigen::Matrix3d V = sums.V;
   const double floor = kPointFloor * V.trace();
@@ -207,10 +187,7 @@ void ReducedSystem::linearize_point(const BundleProblem& problem, const BundleOp
   factor.first = coupling_count_;
   factor.count = 0;
   factor.c.setZero();
-  const int in_front = camera_coordinates(problem, point);
-  const bool prior = point.prior_observation >= 0 &&
-                     scratch_[at(point.prior_observation - point.first)].z() > kMinDepth;
-  if (in_front + (prior ? 1 : 0) < 2) {
+  if (camera_coordinates(problem, point) < 2) {
     factor.L.setZero();
     return;
   }
@@ -220,7 +197,6 @@ void ReducedSystem::linearize_point(const BundleProblem& problem, const BundleOp
       add_observation(problem, options, point.first + i, scratch_[at(i)], &sums);
     }
   }
-  if (prior) add_depth_prior(problem, point, &sums);
   if (has_intrinsics()) {
     Coupling& coupling = couplings_[at(coupling_count_++)];
     coupling.slot = camera_slots_;

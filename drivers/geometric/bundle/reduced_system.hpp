@@ -80,7 +80,6 @@ class ReducedSystem {
   int camera_coordinates(const BundleProblem& problem, const BundlePoint& point);
   void add_observation(const BundleProblem& problem, const BundleOptions& options, int observation,
                        const Eigen::Vector3d& y, PointSums* sums);
-  void add_depth_prior(const BundleProblem& problem, const BundlePoint& point, PointSums* sums);
   void eliminate(const PointSums& sums, double lambda, PointFactor* factor);
   void subtract_couplings(const PointFactor& factor);
   void finish_assembly(const BundleProblem& problem, double lambda);

@@ -33,9 +33,6 @@ double point_cost(const BundleProblem& problem, const BundlePoint& point,
       continue;
     }
     cost += huber_cost(reprojection_value(constants, y, seen.u, seen.v, seen.weight).norm(), huber);
-    if (o == point.prior_observation) {
-      cost += gaussian_cost(1.0 / y.z(), point.prior_inverse_depth, point.prior_sigma);
-    }
   }
   return cost;
 }

@@ -22,7 +22,7 @@ inline double huber_weight(double norm, double delta) { return norm <= delta ? 1
 /// Constants of a pass over the residuals.
 ResidualIntrinsics residual_intrinsics(const BundleIntrinsics& intrinsics, double pixel_scale);
 
-/// Robust cost of one point: its observations and its depth prior.
+/// Robust cost of one point: its observations.
 double point_cost(const BundleProblem& problem, const BundlePoint& point,
                   const ResidualIntrinsics& constants, double huber);
 
