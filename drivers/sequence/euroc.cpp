@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "drivers/sequence/folder.hpp"
+#include "drivers/sequence/frame_list.hpp"
 #include "drivers/sequence/recording.hpp"
 #include "drivers/sequence/text_file.hpp"
 
@@ -21,34 +22,25 @@ std::string find_mav(const std::string& path) {
 
 bool recognise(const std::string& path) { return is_folder(path) && !find_mav(path).empty(); }
 
-void list_csv(const std::string& camera, Recording* recording) {
-  const std::string csv = join(camera, "data.csv");
-  int64_t skipped = 0;
-  for (const TextLine& line : read_lines(csv)) {
-    const size_t comma = line.text.find(',');
-    const auto fields = split_fields(line.text, true);
-    int64_t ns = 0;
-    if (comma == std::string::npos || fields.size() < 2 || !parse_nanoseconds(fields[0], &ns)) {
-      ++skipped;
-      continue;
-    }
-    const std::string name = line.text.substr(line.text.find_first_not_of(" \t", comma + 1));
-    recording->frames.push_back({ns, join(join(camera, "data"), name)});
-  }
-  if (skipped > 0) {
-    add_note(recording, csv + ": " + std::to_string(skipped) + " lines skipped: not 'time,name'");
-  }
-}
-
 // Without a list the names of the images are their times.
-void list_by_name(const std::string& camera, Recording* recording) {
-  const std::string folder = join(camera, "data");
+void list_by_name(const std::string& folder, Recording* recording) {
+  std::vector<TimedName> images;
+  int64_t others = 0;
   for (const std::string& name : list_images(folder)) {
-    int64_t ns = 0;
-    if (parse_nanoseconds(name.substr(0, name.find_last_of('.')), &ns)) {
-      recording->frames.push_back({ns, join(folder, name)});
+    int64_t ignored = 0;
+    const std::string time = name.substr(0, name.find_last_of('.'));
+    if (parse_time(time, TimeUnit::kNanoseconds, &ignored)) {
+      images.push_back({time, join(folder, name)});
+    } else {
+      ++others;
     }
   }
+  if (others > 0) {
+    add_note(recording,
+             folder + ": " + std::to_string(others) + " images left out: their name is no time");
+  }
+  recording->list_path = folder;
+  add_timed_images(images, TimeUnit::kNanoseconds, recording);
 }
 
 // T_BS of sensor.yaml: sixteen numbers in brackets after "data:", body from camera.
@@ -97,6 +89,7 @@ void add_ground_truth(const std::string& mav, Recording* recording) {
     for (const FilePose& pose : file.poses) {
       recording->truth.poses.push_back(to_stamped_pose(compose(pose, T_body_cam)));
     }
+    if (file.foreign_unit) note_unit(path, file.unit, recording);
     recording->truth.skipped = file.skipped;
     recording->truth.path = path;
   } catch (const InputError& error) {
@@ -113,13 +106,15 @@ Recording list(const OpenRequest& request) {
   }
   const std::string camera = join(mav, "cam0");
   Recording recording;
-  if (is_file(join(camera, "data.csv"))) {
-    list_csv(camera, &recording);
+  const std::string images = join(camera, "data");
+  const std::string csv = join(camera, "data.csv");
+  if (is_file(csv)) {
+    read_frame_list(csv, TimeUnit::kNanoseconds, {images, camera, mav}, &recording);
   } else {
-    list_by_name(camera, &recording);
+    list_by_name(images, &recording);
   }
   if (recording.frames.empty()) {
-    throw InputError(camera + ": no image with a time in nanoseconds: nothing to read");
+    throw InputError(camera + ": no image with a time for its name: nothing to read");
   }
   add_ground_truth(mav, &recording);
   return recording;

@@ -56,6 +56,8 @@ std::string parent(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
+bool is_hidden(std::string_view name) { return name.substr(0, 1) == "."; }
+
 bool has_image_ending(std::string_view name) {
   const size_t dot = name.find_last_of('.');
   if (dot == std::string_view::npos) return false;
@@ -95,7 +97,9 @@ std::vector<std::string> list_folder(const std::string& path) {
   std::vector<std::string> names;
   std::filesystem::directory_iterator entry(path, error);
   for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
-    names.push_back(entry->path().filename().string());
+    std::string name = entry->path().filename().string();
+    // macOS leaves "._NAME" beside each file on disks of other systems.
+    if (!is_hidden(name)) names.push_back(std::move(name));
   }
   if (error) throw InputError(path + ": cannot list the folder: " + error.message());
   std::sort(names.begin(), names.end(), natural_less);

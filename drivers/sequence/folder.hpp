@@ -20,13 +20,16 @@ std::string base_name(const std::string& path);
 /// Folder above; "" becomes ".".
 std::string parent(const std::string& path);
 
+/// True for a name that begins with a dot: no input, except where it is asked for by name.
+bool is_hidden(std::string_view name);
+
 /// True for a name that ends like an image OpenCV reads, in small or capital letters.
 bool has_image_ending(std::string_view name);
 
 /// Order in which img2 comes before img10.
 bool natural_less(std::string_view a, std::string_view b);
 
-/// Names in a folder in natural order, without "." and "..".
+/// Names in a folder in natural order, without hidden ones.
 /// @throws InputError when it is missing or may not be read
 std::vector<std::string> list_folder(const std::string& path);
 

@@ -2,26 +2,20 @@
 // Common part of the sources of this folder: the C table, frame range, time order, messages.
 #include "drivers/sequence/frame_source.hpp"
 
-#include <cinttypes>
-#include <cstdio>
 #include <exception>
 #include <utility>
+
+#include "drivers/sequence/time_text.hpp"
 
 namespace unisim::sequence {
 namespace {
 
 FrameSource* self(unisim_source* source) { return static_cast<FrameSource*>(source); }
 
-std::string seconds_text(int64_t ns) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6f s", static_cast<double>(ns) * 1e-9);
-  return text;
-}
-
 }  // namespace
 
-FrameSource::FrameSource(const char* format_name, GroundTruth truth, std::string note)
-    : unisim_source{}, truth_(std::move(truth)), note_(std::move(note)) {
+FrameSource::FrameSource(const char* format_name, GroundTruth truth, std::vector<std::string> notes)
+    : unisim_source{}, truth_(std::move(truth)), notes_(std::move(notes)) {
   format = format_name;
   fill_table();
 }

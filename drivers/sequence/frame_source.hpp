@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "drivers/sequence/recording.hpp"
 #include "drivers/source.h"
@@ -24,10 +25,10 @@ class FrameSource : public unisim_source {
   FrameSource(const FrameSource&) = delete;
   FrameSource& operator=(const FrameSource&) = delete;
 
-  const std::string& note() const { return note_; }
+  const std::vector<std::string>& notes() const { return notes_; }
 
  protected:
-  FrameSource(const char* format_name, GroundTruth truth, std::string note);
+  FrameSource(const char* format_name, GroundTruth truth, std::vector<std::string> notes);
 
   virtual int64_t count() const = 0;
   virtual int read(bool decode_image, unisim_frame* frame) = 0;
@@ -45,7 +46,7 @@ class FrameSource : public unisim_source {
   void fill_table();
 
   GroundTruth truth_;
-  std::string note_;
+  std::vector<std::string> notes_;
   std::string message_;
   int64_t last_timestamp_ns_ = 0;
   bool any_frame_ = false;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A folder of images or a pattern of file names, in natural order at a constant rate.
+// A folder of images or a pattern of file names: times from the names, or their numbers at a rate.
+#include <algorithm>
+
 #include "drivers/sequence/folder.hpp"
+#include "drivers/sequence/frame_list.hpp"
+#include "drivers/sequence/frame_numbers.hpp"
 #include "drivers/sequence/recording.hpp"
 #include "drivers/sequence/text_file.hpp"
 
@@ -22,17 +26,62 @@ std::vector<std::string> list_paths(const std::string& path) {
 
 bool recognise(const std::string& path) { return is_pattern(path) || !list_images(path).empty(); }
 
-Recording list(const OpenRequest& request) {
-  const double fps = request.fps > 0 ? request.fps : kUsualFps;
-  Recording recording;
-  int64_t position = 0;
-  for (std::string& path : list_paths(request.path)) {
-    recording.frames.push_back({time_at_rate(position++, fps), std::move(path)});
+constexpr size_t kFewestDecimals = 3;
+
+// Names that are times: of a clock that tells the date, or in seconds with the same number of
+// decimals each, which "1.9" and "1.10" have not.
+bool are_times(const std::vector<TimedName>& images) {
+  std::vector<double> times;
+  bool decimals = true;
+  const size_t after_point = images.front().time.size() - 1 - images.front().time.find('.');
+  for (const TimedName& image : images) {
+    double time = 0;
+    if (!parse_number(image.time, &time)) return false;
+    const size_t point = image.time.find('.');
+    decimals = decimals && point != std::string::npos && after_point >= kFewestDecimals &&
+               image.time.size() - 1 - point == after_point;
+    times.push_back(time);
   }
-  if (recording.frames.empty()) {
+  const TimeUnit unit = guess_unit(times, TimeUnit::kSeconds, kLongestImageStepS);
+  const auto is_dated = [unit](double time) { return is_date(time / units_per_second(unit)); };
+  return decimals || std::all_of(times.begin(), times.end(), is_dated);
+}
+
+// The first image has time 0: the numbers of a recording begin anywhere.
+void time_by_number(const std::vector<std::string>& paths, double fps, Recording* recording) {
+  std::vector<int64_t> numbers = frame_numbers(paths);
+  if (numbers.empty()) {
+    numbers = positions(paths.size());
+    add_note(recording, recording->list_path +
+                            ": names do not differ in one number alone: images have the times of "
+                            "their places, gaps between them are not seen");
+  }
+  note_gaps(numbers, recording);
+  const int64_t first = numbers.front();
+  for (size_t k = 0; k < paths.size(); ++k) {
+    recording->frames.push_back({time_at_rate(numbers[k] - first, fps), paths[k]});
+  }
+}
+
+Recording list(const OpenRequest& request) {
+  Recording recording;
+  recording.list_path = request.path;
+  const std::vector<std::string> paths = list_paths(request.path);
+  if (paths.empty()) {
     throw InputError(request.path +
                      ": no image (png, jpg, bmp, pgm, ppm, tif, webp) found: give a folder "
                      "of images or a quoted pattern such as 'dir/*.png'");
+  }
+  std::vector<TimedName> images;
+  for (const std::string& path : paths) {
+    const std::string name = base_name(path);
+    images.push_back({name.substr(0, name.find_last_of('.')), path});
+  }
+  if (are_times(images)) {
+    add_note(&recording, request.path + ": names are read as times");
+    add_timed_images(images, TimeUnit::kSeconds, &recording);
+  } else {
+    time_by_number(paths, request.fps > 0 ? request.fps : kUsualFps, &recording);
   }
   return recording;
 }

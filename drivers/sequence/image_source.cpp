@@ -11,7 +11,7 @@ namespace {
 class ImageSource final : public FrameSource {
  public:
   ImageSource(const char* format_name, Recording recording, FrameRange range, const PixelRule& rule)
-      : FrameSource(format_name, std::move(recording.truth), std::move(recording.note)),
+      : FrameSource(format_name, std::move(recording.truth), std::move(recording.notes)),
         frames_(std::move(recording.frames)),
         range_(range),
         next_(range.from),
@@ -25,7 +25,6 @@ class ImageSource final : public FrameSource {
     frame->index = next_++;
     const FrameEntry& entry = frames_[static_cast<size_t>(frame->index)];
     frame->timestamp_ns = entry.timestamp_ns;
-    if (!in_time_order(frame->index, entry.timestamp_ns, entry.path)) return UNISIM_FRAME_BAD;
     return decode_image ? decode_last(frame) : UNISIM_FRAME_OK;
   }
 

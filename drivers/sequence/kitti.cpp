@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // KITTI odometry: sequences/NN/image_0 with times.txt, poses/NN.txt.
 #include "drivers/sequence/folder.hpp"
+#include "drivers/sequence/frame_numbers.hpp"
 #include "drivers/sequence/recording.hpp"
 #include "drivers/sequence/text_file.hpp"
+#include "drivers/sequence/time_text.hpp"
 
 namespace unisim::sequence {
 namespace {
@@ -65,58 +67,134 @@ std::vector<std::string> find_pose_files(const std::string& sequence) {
   return found;
 }
 
-std::vector<int64_t> read_times(const std::string& path) {
+// Times of the lines of a sequence: from a file, else at a rate.
+struct Clock {
+  std::string path;             // "" without a file
+  std::vector<int64_t> listed;  // by line
+  double fps;
+
+  bool has(int64_t line) const {
+    return line >= 0 && (path.empty() || line < static_cast<int64_t>(listed.size()));
+  }
+  int64_t at(int64_t line) const {
+    return path.empty() ? time_at_rate(line, fps) : listed[static_cast<size_t>(line)];
+  }
+};
+
+struct PoseLines {
+  std::string path;
+  PoseFile file;
+  size_t lines() const { return file.poses.size() + static_cast<size_t>(file.skipped); }
+};
+
+std::vector<int64_t> read_times(const std::string& path, Recording* recording) {
+  const std::vector<TextLine> lines = read_lines(path);
+  std::vector<double> numbers(lines.size());
+  for (size_t k = 0; k < lines.size(); ++k) {
+    if (!parse_number(split_fields(lines[k].text).front(), &numbers[k])) {
+      throw InputError(path + ":" + std::to_string(lines[k].number) + ": not a time in seconds");
+    }
+  }
+  const TimeUnit unit = guess_unit(numbers, TimeUnit::kSeconds, kLongestImageStepS);
+  if (unit != TimeUnit::kSeconds) note_unit(path, unit, recording);
   std::vector<int64_t> times;
-  for (const TextLine& line : read_lines(path)) {
+  for (const TextLine& line : lines) {
     int64_t ns = 0;
-    if (!parse_seconds(split_fields(line.text).front(), &ns)) {
-      throw InputError(path + ":" + std::to_string(line.number) + ": not a time in seconds");
+    if (!parse_time(split_fields(line.text).front(), unit, &ns)) {
+      throw InputError(path + ":" + std::to_string(line.number) + ": time out of range");
     }
     times.push_back(ns);
   }
   return times;
 }
 
-// Times of the frames: times.txt; else those of a ground truth with one timed line per image; else
-// the usual rate.
-std::vector<int64_t> frame_times(const std::string& sequence, size_t count, double fps,
-                                 const std::vector<PoseFile>& poses) {
+// times.txt; else the times of a ground truth with a line per frame; else the usual rate.
+Clock choose_clock(const std::string& sequence, const std::vector<std::string>& names, double fps,
+                   const std::vector<PoseLines>& poses, Recording* recording) {
+  Clock clock = {{}, {}, fps > 0 ? fps : kUsualFps};
   const std::string times_path = join(sequence, "times.txt");
-  std::vector<int64_t> times;
   if (is_file(times_path)) {
-    times = read_times(times_path);
-    if (times.size() < count) {
-      throw InputError(times_path + ": " + std::to_string(times.size()) + " times for " +
-                       std::to_string(count) + " images: one line per image is needed");
-    }
-    return times;
+    clock.listed = read_times(times_path, recording);
+    clock.path = times_path;
+    return clock;
   }
-  for (size_t k = 0; k < poses.size() && times.empty() && fps <= 0; ++k) {
-    if (poses[k].format != PoseFormat::kTum || poses[k].poses.size() != count) continue;
-    for (const FilePose& pose : poses[k].poses) times.push_back(pose.timestamp_ns);
+  if (fps > 0) return clock;
+  const std::vector<int64_t> numbers = frame_numbers(names);
+  const size_t frames = numbers.empty() ? 0 : static_cast<size_t>(numbers.back()) + 1;
+  std::string unused;
+  for (const PoseLines& truth : poses) {
+    const size_t count = truth.file.poses.size();
+    if (truth.file.format != PoseFormat::kTum) continue;
+    unused = truth.path;
+    if (count != names.size() && count != frames) continue;
+    for (const FilePose& pose : truth.file.poses) clock.listed.push_back(pose.timestamp_ns);
+    clock.path = truth.path;
+    return clock;
   }
-  for (size_t k = times.size(); k < count; ++k) {
-    times.push_back(time_at_rate(static_cast<int64_t>(k), fps > 0 ? fps : kUsualFps));
+  if (!unused.empty()) {
+    add_note(recording, times_path + ": missing, and " + unused +
+                            " has not a line for each image: images are taken as 10 a second");
   }
-  return times;
+  return clock;
 }
 
-// The first file that fits: a matrix per line belongs to the image of the same number.
-void choose_ground_truth(const std::vector<std::string>& paths, const std::vector<PoseFile>& files,
-                         const std::vector<int64_t>& times, Recording* recording) {
-  for (size_t k = 0; k < files.size() && recording->truth.poses.empty(); ++k) {
-    const bool by_number = files[k].format == PoseFormat::kKitti;
-    for (const FilePose& pose : files[k].poses) {
+std::vector<PoseLines> read_poses(const std::string& sequence, Recording* recording) {
+  std::vector<PoseLines> poses;
+  for (const std::string& path : find_pose_files(sequence)) {
+    try {
+      poses.push_back({path, read_pose_file(path)});
+    } catch (const InputError& error) {
+      add_note(recording, std::string("no ground truth: ") + error.what());
+    }
+  }
+  return poses;
+}
+
+// Line that belongs to each image. Without times.txt and numbers in the names it is their place.
+std::vector<int64_t> choose_lines(const std::vector<std::string>& names, const Clock& clock,
+                                  Recording* recording) {
+  if (!clock.path.empty()) {
+    std::string problem;
+    const auto lines = lines_of_images(names, clock.listed.size(), clock.path, recording, &problem);
+    if (lines.empty()) throw InputError(problem);
+    return lines;
+  }
+  const std::vector<int64_t> numbers = frame_numbers(names);
+  note_gaps(numbers, recording);
+  return numbers.empty() ? positions(names.size()) : numbers;
+}
+
+// The first file with poses: a matrix per line belongs to the frame of the same number, or to the
+// image of the same place where the file has a line for each image but not for each time.
+void add_ground_truth(const std::vector<PoseLines>& poses, const Clock& clock,
+                      const std::vector<int64_t>& lines, Recording* recording) {
+  for (const PoseLines& truth : poses) {
+    if (!recording->truth.poses.empty()) break;
+    const bool counted = truth.file.format == PoseFormat::kKitti;
+    const bool by_place = counted && !truth.file.numbered && truth.lines() == lines.size() &&
+                          lines.back() != static_cast<int64_t>(lines.size()) - 1;
+    int64_t outside = 0;
+    for (const FilePose& pose : truth.file.poses) {
       unisim_stamped_pose stamped = to_stamped_pose(pose);
-      if (by_number) {
+      if (counted) {
         const int64_t number = pose.timestamp_ns / 1000000000;
-        if (number < 0 || number >= static_cast<int64_t>(times.size())) continue;
-        stamped.timestamp_ns = times[static_cast<size_t>(number)];
+        const int64_t line = by_place ? lines[static_cast<size_t>(number)] : number;
+        if (!clock.has(line)) {
+          ++outside;
+          continue;
+        }
+        stamped.timestamp_ns = clock.at(line);
       }
       recording->truth.poses.push_back(stamped);
     }
-    recording->truth.path = paths[k];
-    recording->truth.skipped = files[k].skipped;
+    if (by_place) add_note(recording, truth.path + ": a line for each image: paired in order");
+    if (outside > 0) {
+      add_note(recording, truth.path + ": " + std::to_string(outside) +
+                              " poses left out: " + clock.path + " has no such line");
+    }
+    if (truth.file.foreign_unit) note_unit(truth.path, truth.file.unit, recording);
+    recording->truth.path = truth.path;
+    recording->truth.skipped = truth.file.skipped;
   }
   finish_ground_truth(recording);
 }
@@ -124,23 +202,17 @@ void choose_ground_truth(const std::vector<std::string>& paths, const std::vecto
 Recording list(const OpenRequest& request) {
   const std::string sequence = choose_sequence(request.path);
   const std::string images = find_images(sequence);
-  Recording recording;
-  std::vector<std::string> pose_paths;
-  std::vector<PoseFile> pose_files;
-  for (const std::string& path : find_pose_files(sequence)) {
-    try {
-      pose_files.push_back(read_pose_file(path));
-      pose_paths.push_back(path);
-    } catch (const InputError& error) {
-      add_note(&recording, std::string("no ground truth: ") + error.what());
-    }
-  }
   const std::vector<std::string> names = list_images(images);
-  const std::vector<int64_t> times = frame_times(sequence, names.size(), request.fps, pose_files);
+  Recording recording;
+  recording.list_path = images;
+  const std::vector<PoseLines> poses = read_poses(sequence, &recording);
+  const Clock clock = choose_clock(sequence, names, request.fps, poses, &recording);
+  if (!clock.path.empty()) recording.list_path = clock.path;
+  const std::vector<int64_t> lines = choose_lines(names, clock, &recording);
   for (size_t k = 0; k < names.size(); ++k) {
-    recording.frames.push_back({times[k], join(images, names[k])});
+    recording.frames.push_back({clock.at(lines[k]), join(images, names[k])});
   }
-  choose_ground_truth(pose_paths, pose_files, times, &recording);
+  add_ground_truth(poses, clock, lines, &recording);
   return recording;
 }
 

@@ -51,22 +51,25 @@ bool set_rotation(const double q[4], FilePose* pose) {
   return true;
 }
 
-bool read_tum(const std::vector<std::string_view>& texts, FilePose* pose) {
+bool read_time(std::string_view text, double number, TimeUnit unit, FilePose* pose) {
+  pose->time_s = number / units_per_second(unit);
+  return parse_time(text, unit, &pose->timestamp_ns);
+}
+
+bool read_tum(const std::vector<std::string_view>& texts, TimeUnit unit, FilePose* pose) {
   Fields f{};
   if (texts.size() != 8 || !parse_fields(texts, &f) || !all_finite(f.number, 8)) return false;
-  if (!parse_seconds(texts[0], &pose->timestamp_ns)) return false;
-  pose->time_s = f.number[0];
+  if (!read_time(texts[0], f.number[0], unit, pose)) return false;
   std::copy(f.number + 1, f.number + 4, pose->translation);
   return set_rotation(f.number + 4, pose);
 }
 
-bool read_euroc(const std::vector<std::string_view>& texts, FilePose* pose) {
+bool read_euroc(const std::vector<std::string_view>& texts, TimeUnit unit, FilePose* pose) {
   Fields f{};
   if (texts.size() < 8) return false;
   if (!parse_fields({texts.begin(), texts.begin() + 8}, &f) || !all_finite(f.number, 8))
     return false;
-  if (!parse_nanoseconds(texts[0], &pose->timestamp_ns)) return false;
-  pose->time_s = f.number[0] / 1e9;
+  if (!read_time(texts[0], f.number[0], unit, pose)) return false;
   std::copy(f.number + 1, f.number + 4, pose->translation);
   const double q[4] = {f.number[5], f.number[6], f.number[7], f.number[4]};
   return set_rotation(q, pose);
@@ -83,6 +86,21 @@ bool read_kitti(const std::vector<std::string_view>& texts, int64_t position, Fi
   pose->time_s = frame;
   pose->timestamp_ns = static_cast<int64_t>(std::llround(frame * 1e9));
   return true;
+}
+
+// Finds the unit of the first column.
+void set_unit(const std::vector<TextLine>& lines, PoseFile* file) {
+  if (file->format == PoseFormat::kKitti) return;
+  std::vector<double> times;
+  for (const TextLine& line : lines) {
+    double time = 0;
+    const auto texts = split_fields(line.text, true);
+    if (!texts.empty() && parse_number(texts.front(), &time)) times.push_back(time);
+  }
+  const bool euroc = file->format == PoseFormat::kEuroc;
+  const TimeUnit own = euroc ? TimeUnit::kNanoseconds : TimeUnit::kSeconds;
+  file->unit = guess_unit(std::move(times), own, kLongestPoseStepS);
+  file->foreign_unit = file->unit != own;
 }
 
 }  // namespace
@@ -126,14 +144,18 @@ PoseFile read_pose_file(const std::string& path, PoseFormat format) {
   for (size_t k = 0; k < lines.size() && file.format == PoseFormat::kAuto; ++k) {
     file.format = guess_format(lines[k].text);
   }
+  set_unit(lines, &file);
   for (size_t k = 0; k < lines.size(); ++k) {
-    const auto texts = split_fields(lines[k].text, file.format == PoseFormat::kEuroc);
+    const auto texts = split_fields(lines[k].text, true);
     FilePose pose{};
     bool good = false;
-    if (file.format == PoseFormat::kTum) good = read_tum(texts, &pose);
-    if (file.format == PoseFormat::kEuroc) good = read_euroc(texts, &pose);
+    if (file.format == PoseFormat::kTum) good = read_tum(texts, file.unit, &pose);
+    if (file.format == PoseFormat::kEuroc) good = read_euroc(texts, file.unit, &pose);
     if (file.format == PoseFormat::kKitti) good = read_kitti(texts, static_cast<int64_t>(k), &pose);
-    if (good) file.poses.push_back(pose);
+    if (good) {
+      file.numbered = file.numbered || (file.format == PoseFormat::kKitti && texts.size() == 13);
+      file.poses.push_back(pose);
+    }
   }
   file.skipped = static_cast<int64_t>(lines.size() - file.poses.size());
   if (file.poses.empty()) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/sequence/time_text.hpp"
 #include "drivers/source.h"
 
 namespace unisim::sequence {
@@ -29,7 +30,10 @@ struct FilePose {
 
 struct PoseFile {
   PoseFormat format = PoseFormat::kAuto;
-  std::vector<FilePose> poses;  ///< in the file's order
+  std::vector<FilePose> poses;         ///< in the file's order
+  bool numbered = false;               ///< KITTI: each line has its frame number
+  TimeUnit unit = TimeUnit::kSeconds;  ///< of the times, as the file has them
+  bool foreign_unit = false;           ///< not the format's
   int64_t skipped = 0;  ///< lines left out: not finite, zero quaternion, wrong number of fields
 };
 

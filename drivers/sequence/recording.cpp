@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "drivers/sequence/folder.hpp"
 #include "drivers/sequence/text_file.hpp"
 
 namespace unisim::sequence {
@@ -25,6 +26,7 @@ void read_ground_truth(const std::string& path, PoseFormat format, Recording* re
   try {
     const PoseFile file = read_pose_file(path, format);
     for (const FilePose& pose : file.poses) recording->truth.poses.push_back(to_stamped_pose(pose));
+    if (file.foreign_unit) note_unit(path, file.unit, recording);
     recording->truth.path = path;
     recording->truth.skipped = file.skipped;
   } catch (const InputError& error) {
@@ -45,9 +47,51 @@ void finish_ground_truth(Recording* recording) {
   }
 }
 
+void put_in_time_order(Recording* recording) {
+  std::vector<FrameEntry>& frames = recording->frames;
+  const auto before = [](const FrameEntry& a, const FrameEntry& b) {
+    return a.timestamp_ns < b.timestamp_ns;
+  };
+  if (!std::is_sorted(frames.begin(), frames.end(), before)) {
+    add_note(recording, recording->list_path + ": not in the order of time: sorted");
+    std::stable_sort(frames.begin(), frames.end(), before);
+  }
+  std::vector<FrameEntry> kept;
+  size_t repeated = 0;
+  size_t clashing = 0;
+  std::string first;
+  for (FrameEntry& frame : frames) {
+    if (kept.empty() || before(kept.back(), frame)) {
+      kept.push_back(std::move(frame));
+    } else if (kept.back().path == frame.path) {
+      ++repeated;
+    } else if (clashing++ == 0) {
+      first = base_name(kept.back().path) + " and " + base_name(frame.path) + " at " +
+              seconds_text(frame.timestamp_ns);
+    }
+  }
+  const std::string clash = recording->list_path + ": " + std::to_string(clashing) + " of " +
+                            std::to_string(clashing + kept.size()) +
+                            " images have the time of another (first: " + first + ")";
+  if (clashing > kept.size()) {
+    throw InputError(clash +
+                     ": give each image a time of its own: nanoseconds, or seconds with "
+                     "decimals");
+  }
+  if (clashing > 0) add_note(recording, clash + ": left out");
+  if (repeated > 0) {
+    add_note(recording,
+             recording->list_path + ": " + std::to_string(repeated) + " repeated lines left out");
+  }
+  frames = std::move(kept);
+}
+
+void note_unit(const std::string& path, TimeUnit unit, Recording* recording) {
+  add_note(recording, path + ": times are read as " + unit_name(unit));
+}
+
 void add_note(Recording* recording, const std::string& remark) {
-  if (!recording->note.empty()) recording->note += "; ";
-  recording->note += remark;
+  recording->notes.push_back(remark);
 }
 
 }  // namespace unisim::sequence

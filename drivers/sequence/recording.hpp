@@ -28,7 +28,8 @@ struct GroundTruth {
 struct Recording {
   std::vector<FrameEntry> frames;
   GroundTruth truth;
-  std::string note;  ///< what was odd about the listing, "" if nothing
+  std::string list_path;           ///< where the times are from: a list or a folder
+  std::vector<std::string> notes;  ///< what was odd about the listing, a line each
 };
 
 /// What the caller asked for.
@@ -54,13 +55,19 @@ inline constexpr long double kMaxTimeNs = 9.2e18L;
 /// Time of frame `number` at a constant rate. @throws InputError beyond kMaxTimeNs
 int64_t time_at_rate(int64_t number, double fps);
 
-/// Ground truth from a pose file; an unreadable one leaves it empty and says so in the note.
+/// Ground truth from a pose file; an unreadable one leaves it empty, which is noted.
 void read_ground_truth(const std::string& path, PoseFormat format, Recording* recording);
 
 /// Sorts the poses by time and notes how many lines were left out.
 void finish_ground_truth(Recording* recording);
 
-/// Appends a remark to the note.
+/// Sorts the frames by time. Repeated lines and images with the time of another are left out, which
+/// is noted. @throws InputError when so most images would be
+void put_in_time_order(Recording* recording);
+
+/// Notes that times are not in the format's unit.
+void note_unit(const std::string& path, TimeUnit unit, Recording* recording);
+
 void add_note(Recording* recording, const std::string& remark);
 
 }  // namespace unisim::sequence

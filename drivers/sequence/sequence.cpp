@@ -79,6 +79,7 @@ std::unique_ptr<FrameSource> open(const std::string& path, const unisim_sequence
                       options.to > 0 ? options.to : std::numeric_limits<int64_t>::max()};
   if (format.list == nullptr) return make_video_source(request, range);
   Recording recording = format.list(request);
+  put_in_time_order(&recording);
   const auto count = static_cast<int64_t>(recording.frames.size());
   if (range.from >= count) {
     throw InputError(path + ": has " + std::to_string(count) + " frames: the range begins at " +
@@ -107,6 +108,8 @@ unisim_source* unisim_sequence_open(const char* path, const unisim_sequence_opti
   return nullptr;
 }
 
-const char* unisim_sequence_note(const unisim_source* source) {
-  return static_cast<const unisim::sequence::FrameSource*>(source)->note().c_str();
+const char* unisim_sequence_note(const unisim_source* source, int32_t i) {
+  const auto& notes = static_cast<const unisim::sequence::FrameSource*>(source)->notes();
+  return i >= 0 && static_cast<size_t>(i) < notes.size() ? notes[static_cast<size_t>(i)].c_str()
+                                                         : nullptr;
 }

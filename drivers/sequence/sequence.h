@@ -16,6 +16,10 @@
  *  spread over the range asked for) are reduced to 8 bits from these. 16-bit gray images with
  *  "depth" in the name of file or folder are refused. Videos are turned as their file says, and
  *  stretched where their pixels are not square.
+ *
+ *  Lists of images are sorted by time; seconds, milli-, micro- and nanoseconds are told apart by
+ * the steps. Where a format has no times, that of an image is its number at the frame rate: an
+ * image that is missing is a gap in time. Names that begin with a dot are no input.
  */
 #ifndef UNISIM_DRIVERS_REPLAY_SEQUENCE_H
 #define UNISIM_DRIVERS_REPLAY_SEQUENCE_H
@@ -34,7 +38,7 @@ typedef struct unisim_sequence_options {
   uint32_t struct_size;
   int32_t reserved;   /**< 0 */
   const char* format; /**< a format of the table above; NULL or "auto": recognised by content */
-  int64_t from;       /**< first frame, by position in the sequence */
+  int64_t from;       /**< first frame, by position among those that are there */
   int64_t to;         /**< one past the last frame; <= 0: to the end */
   double fps;         /**< frames per second where the format carries no times; 0: its usual rate
                            (30; KITTI 10) */
@@ -43,9 +47,9 @@ typedef struct unisim_sequence_options {
 /** Open a recorded sequence. The list of files and the ground truth are read here, once; images are
  *  decoded one by one into a buffer that is used again.
  *
- *  A frame is UNISIM_FRAME_BAD when its file is missing, empty, truncated or not an image, when its
- * size differs from that of the first good frame, or when its time is not after that of the frame
- * before.
+ *  A frame is UNISIM_FRAME_BAD when its file is missing, empty, truncated or not an image, or when
+ *  its size differs from that of the first good frame. Of images with the same time the first is
+ *  taken; a list where so most images would be left out is refused.
  *
  *  @param[in]  path         folder, pattern or file
  *  @param[in]  options      NULL: defaults
@@ -55,10 +59,11 @@ typedef struct unisim_sequence_options {
 unisim_source* unisim_sequence_open(const char* path, const unisim_sequence_options* options,
                                     char* message, size_t message_size);
 
-/** What was noticed at opening and does not stop a run, such as lines left out of the ground truth.
+/** What was noticed at opening and does not stop a run, such as lines left out of a list.
  *  @param source one that unisim_sequence_open() gave
- *  @return one line owned by the source, "" if nothing */
-const char* unisim_sequence_note(const unisim_source* source);
+ *  @param i      0, 1, ...
+ *  @return one line owned by the source, NULL past the last */
+const char* unisim_sequence_note(const unisim_source* source, int32_t i);
 
 #ifdef __cplusplus
 }

@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "drivers/sequence/folder.hpp"
+#include "drivers/sequence/frame_numbers.hpp"
 #include "drivers/sequence/recording.hpp"
 #include "drivers/sequence/text_file.hpp"
 
@@ -91,9 +92,12 @@ Recording list(const OpenRequest& request) {
   const std::string folder = choose_folder(request.path);
   const double fps = request.fps > 0 ? request.fps : kUsualFps;
   Recording recording;
+  recording.list_path = folder;
+  std::vector<int64_t> numbers;
   for (const std::string& name : list_folder(folder)) {
     const int64_t number = colour_number(name);
     if (number < 0) continue;
+    numbers.push_back(number);
     const int64_t timestamp_ns = time_at_rate(number, fps);
     recording.frames.push_back({timestamp_ns, join(folder, name)});
     const std::string pose_name = name.substr(0, name.find(kColour)) + ".pose.txt";
@@ -101,6 +105,7 @@ Recording list(const OpenRequest& request) {
   }
   if (!recording.truth.poses.empty()) recording.truth.path = join(folder, "frame-*.pose.txt");
   finish_ground_truth(&recording);
+  note_gaps(numbers, &recording);
   return recording;
 }
 

@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 #include <string>
+#include <vector>
 
 namespace unisim::sequence {
 
@@ -19,12 +20,12 @@ class SquarePixels {
   /// @param[out] stretched set where the pixels are not square @return the picture to use
   const cv::Mat& apply(const cv::Mat& image, cv::Mat* stretched) const;
 
-  /// What a user should know of it, "" if nothing.
-  const std::string& note() const { return note_; }
+  /// What a user should know of it.
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   cv::Size shown_;
-  std::string note_;
+  std::vector<std::string> notes_;
 };
 
 /// As the container says. @throws InputError where that is out of all reason

@@ -6,7 +6,6 @@
 
 #include <cerrno>
 #include <charconv>
-#include <cmath>
 #include <cstring>
 #include <fstream>
 
@@ -14,31 +13,11 @@ namespace unisim::sequence {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n\v\f";
-constexpr long double kMaxNs = 9.2e18L;
 
 std::string_view trim(std::string_view text) {
   const size_t first = text.find_first_not_of(kBlanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
-template <typename Real>
-bool parse_real(std::string_view text, Real* value) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  if (text.empty()) return false;
-  const char* end = text.data() + text.size();
-  const std::from_chars_result result = std::from_chars(text.data(), end, *value);
-  return result.ec == std::errc() && result.ptr == end;
-}
-
-// long double holds every int64 on the platforms we support, so no digit of a time is lost.
-bool parse_time(std::string_view text, long double ns_per_unit, int64_t* ns) {
-  long double value = 0;
-  if (!parse_real(text, &value)) return false;
-  value *= ns_per_unit;
-  if (!std::isfinite(value) || std::abs(value) > kMaxNs) return false;
-  *ns = std::llround(value);
-  return true;
 }
 
 }  // namespace
@@ -57,6 +36,9 @@ std::vector<TextLine> read_lines(const std::string& path) {
   std::string raw;
   for (int64_t number = 1; std::getline(file, raw); ++number) {
     std::string_view text = raw;
+    if (number == 1 && (text.substr(0, 2) == "\xFF\xFE" || text.substr(0, 2) == "\xFE\xFF")) {
+      throw InputError(path + ": text in UTF-16: save it as UTF-8");
+    }
     if (number == 1 && text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
     text = trim(text);
     if (!text.empty() && text.front() != '#') lines.push_back({std::string(text), number});
@@ -76,10 +58,12 @@ std::vector<std::string_view> split_fields(std::string_view line, bool commas) {
   return fields;
 }
 
-bool parse_number(std::string_view text, double* value) { return parse_real(text, value); }
-
-bool parse_seconds(std::string_view text, int64_t* ns) { return parse_time(text, 1e9L, ns); }
-
-bool parse_nanoseconds(std::string_view text, int64_t* ns) { return parse_time(text, 1.0L, ns); }
+bool parse_number(std::string_view text, double* value) {
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  if (text.empty()) return false;
+  const char* end = text.data() + text.size();
+  const std::from_chars_result result = std::from_chars(text.data(), end, *value);
+  return result.ec == std::errc() && result.ptr == end;
+}
 
 }  // namespace unisim::sequence

@@ -32,8 +32,4 @@ std::vector<std::string_view> split_fields(std::string_view line, bool commas = 
 /// Whole text as a number; "nan" and "inf" are numbers. @return false if it is not one
 bool parse_number(std::string_view text, double* value);
 
-/// Decimal seconds, or nanoseconds, to nanoseconds without loss. @return false if not a finite time
-bool parse_seconds(std::string_view text, int64_t* ns);
-bool parse_nanoseconds(std::string_view text, int64_t* ns);
-
 }  // namespace unisim::sequence

@@ -58,7 +58,7 @@ class VideoSource final : public FrameSource {
  public:
   VideoSource(std::string path, cv::VideoCapture video, const SquarePixels& square, double fps,
               FrameRange range)
-      : FrameSource("video", {}, square.note()),
+      : FrameSource("video", {}, square.notes()),
         path_(std::move(path)),
         video_(std::move(video)),
         square_(square),

@@ -103,29 +103,28 @@ TEST_CASE("a listed image that is missing is a bad frame") {
   REQUIRE(answers[1].status == UNISIM_FRAME_OK);
 }
 
-TEST_CASE("times that repeat or go back are bad frames, decoded or not") {
-  const bool decode = GENERATE(true, false);
+TEST_CASE("lines of a list that are not 'time name' are counted, the first is told") {
   const TempFolder folder;
   write_image(folder, "a.png", 1);
-  folder.write("rgb.txt", "0.1 a.png\n0.2 a.png\n0.2 a.png\n0.15 a.png\n0.3 a.png\n");
-  const auto answers = play(open_sequence(folder.path()), decode);
-  REQUIRE(answers.size() == 5);
-  REQUIRE(answers[1].status == UNISIM_FRAME_OK);
-  REQUIRE(answers[2].status == UNISIM_FRAME_BAD);
-  REQUIRE(has(answers[2].message, "0.200000 s repeats"));
-  REQUIRE(answers[3].status == UNISIM_FRAME_BAD);
-  REQUIRE(has(answers[3].message, "0.150000 s goes back from 0.200000 s"));
-  REQUIRE(answers[4].status == UNISIM_FRAME_OK);
-  REQUIRE(answers[4].index == 4);
+  folder.write("rgb.txt", "0.1 a.png\nsoon a.png\n0.2 a.png\n0.3\nnan a.png\n0.4 a.png\n");
+  const Source source = open_sequence(folder.path());
+  REQUIRE(source->frame_count(source.get()) == 3);
+  REQUIRE(has(notes_of(source), "rgb.txt:2: 'soon a.png' is not 'time name': 3 of 6 lines"));
 }
 
-TEST_CASE("lines of a list that are not 'time name' are counted") {
+TEST_CASE("a list of which less than half is understood is refused with file, line and form") {
   const TempFolder folder;
   write_image(folder, "a.png", 1);
-  folder.write("rgb.txt", "soon a.png\n0.2 a.png\n0.3\nnan a.png\n");
-  const Source source = open_sequence(folder.path());
-  REQUIRE(source->frame_count(source.get()) == 1);
-  REQUIRE(has(unisim_sequence_note(source.get()), "3 lines skipped"));
+  folder.write("rgb.txt", "# c\n0.1 a.png\na.png 0.2\na.png 0.3\n");
+  const std::string message = open_failure(folder.path());
+  REQUIRE(has(message, folder / "rgb.txt:3: 'a.png 0.2' is not 'time name'"));
+  REQUIRE(has(message, "expected a time and the name of an image"));
+}
+
+TEST_CASE("a text file in UTF-16 is told") {
+  const TempFolder folder;
+  folder.write("rgb.txt", std::string("\xFF\xFE") + std::string("0\0 \0a\0", 6));
+  REQUIRE(has(open_failure(folder.path()), "save it as UTF-8"));
 }
 
 TEST_CASE("a ground truth of no use leaves the images readable") {
@@ -137,7 +136,7 @@ TEST_CASE("a ground truth of no use leaves the images readable") {
   REQUIRE(play(source).size() == 1);
   REQUIRE(truth_of(source).empty());
   REQUIRE(std::string(source->ground_truth_path(source.get())).empty());
-  REQUIRE(has(unisim_sequence_note(source.get()), "no ground truth"));
+  REQUIRE(has(notes_of(source), "no ground truth"));
 }
 
 TEST_CASE("paths that cannot be a sequence") {
@@ -203,7 +202,7 @@ TEST_CASE("kitti: too few times are an error") {
   const TempFolder folder;
   for (int k = 0; k < 3; ++k) write_image(folder, "image_0/" + std::to_string(k) + ".png", k);
   folder.write("times.txt", "0.0\n0.1\n");
-  REQUIRE(has(open_failure(folder.path()), "2 times for 3 images"));
+  REQUIRE(has(open_failure(folder.path()), "2 lines for 3 images numbered 0 to 2"));
 }
 
 TEST_CASE("a folder that may not be read") {

@@ -90,8 +90,7 @@ TEST_CASE("7scenes: times from frame numbers, gaps are gaps in time, seq-NN is f
   REQUIRE(truth_of(source).size() == 1);
   require_quarter_turn(truth_of(source)[0]);
   REQUIRE(truth_of(source)[0].timestamp_ns == 500000000);
-  REQUIRE(std::string(unisim_sequence_note(source.get())).find("1 poses left out") !=
-          std::string::npos);
+  REQUIRE(notes_of(source).find("1 poses left out") != std::string::npos);
   REQUIRE(open_sequence(folder / "seq-01", "7scenes", 0, 0, 10)->frame_count(source.get()) == 2);
 }
 
@@ -165,8 +164,7 @@ TEST_CASE("euroc: csv list, nanoseconds, ground truth of the body moved to the c
   REQUIRE(answers[1].pixel == 2);
   REQUIRE(truth_of(source).size() == 1);
   require_quarter_turn(truth_of(source)[0]);
-  REQUIRE(std::string(unisim_sequence_note(source.get())).find("1 poses left out") !=
-          std::string::npos);
+  REQUIRE(notes_of(source).find("1 poses left out") != std::string::npos);
 }
 
 TEST_CASE("euroc: without the csv the names are the times") {
@@ -195,7 +193,7 @@ TEST_CASE("images: folder or pattern in natural order") {
   const TempFolder folder;
   write_image(folder, "my images/img10.png", 10);
   write_image(folder, "my images/img9.PNG", 9);
-  write_image(folder, "my images/img010b.png", 11);
+  write_image(folder, "my images/img11.png", 11);
   folder.write("my images/readme.txt", "no image");
   const std::string part = GENERATE(as<std::string>{}, "my images", "my images/img*[gG]");
   const std::string path = folder / part;

@@ -103,7 +103,7 @@ TEST_CASE("12 bits in 16-bit images are seen as such, the same in each image") {
   write_deep_image(folder, "1" + ending, 4095, type);
   write_deep_image(folder, "2" + ending, 160, type);
   const Source source = open_sequence(folder.path());
-  CHECK(has(unisim_sequence_note(source.get()), "12 bits"));
+  CHECK(has(notes_of(source), "12 bits"));
   CHECK(first_pixels(source) == std::vector<int>{2600 >> 4, 255, 10});
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("images of 16 and of 8 bits are as they were, without a word") {
   write_image(folder, "plain/0.png", 77);
   const Source deep = open_sequence(folder / "deep");
   CHECK(first_pixels(deep) == std::vector<int>{255, 128});
-  CHECK(std::string(unisim_sequence_note(deep.get())).empty());
+  CHECK(notes_of(deep).empty());
   CHECK(first_pixels(open_sequence(folder / "plain")) == std::vector<int>{77});
 }
 

@@ -67,6 +67,14 @@ std::vector<unisim_stamped_pose> truth_of(const Source& source) {
   return {poses, poses + count};
 }
 
+std::string notes_of(const Source& source) {
+  std::string notes;
+  for (int32_t i = 0; unisim_sequence_note(source.get(), i) != nullptr; ++i) {
+    notes += std::string(unisim_sequence_note(source.get(), i)) + "\n";
+  }
+  return notes;
+}
+
 void write_image(const TempFolder& folder, const std::string& name, int brightness, int width,
                  int height, bool gray) {
   folder.make_parent(name);

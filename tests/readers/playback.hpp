@@ -37,6 +37,9 @@ std::vector<Answer> play(const Source& source, bool decode = true);
 
 std::vector<unisim_stamped_pose> truth_of(const Source& source);
 
+/// What was noticed at opening, one text.
+std::string notes_of(const Source& source);
+
 /// An image of one brightness.
 void write_image(const TempFolder& folder, const std::string& name, int brightness, int width = 32,
                  int height = 24, bool gray = false);

@@ -90,20 +90,6 @@ TEST_CASE("a matrix that is no rotation is refused") {
   REQUIRE_FALSE(pose_from_matrix(scaled, &pose));
 }
 
-TEST_CASE("times are read exactly") {
-  int64_t ns = 0;
-  REQUIRE(parse_seconds("1305031102.175304123", &ns));
-  REQUIRE(ns == 1305031102175304123);
-  REQUIRE(parse_seconds("1.305031102175304e+09", &ns));
-  REQUIRE(ns == 1305031102175304000);
-  REQUIRE(parse_seconds("-0.5", &ns));
-  REQUIRE(ns == -500000000);
-  REQUIRE(parse_nanoseconds("1403715273262142976", &ns));
-  REQUIRE(ns == 1403715273262142976);
-  for (const char* text : {"", "nan", "inf", "1e30", "12a", "1,5"})
-    REQUIRE_FALSE(parse_seconds(text, &ns));
-}
-
 TEST_CASE("a rate that puts a frame beyond all times is refused") {
   REQUIRE(time_at_rate(3, 30.0) == 100000000);
   REQUIRE_THROWS_AS(time_at_rate(1, 1e-30), InputError);

@@ -105,8 +105,8 @@ TEST_CASE("video: pixels that are not square become square, whatever the contain
       ffmpeg(folder, clip, "-vf setsar=3/2 -c:v mpeg4 -q:v 2", "wide." + ending);
   REQUIRE_FFMPEG(wide);
   const Source source = open_sequence(wide);
-  CHECK(has(unisim_sequence_note(source.get()), "3:2"));
-  CHECK(has(unisim_sequence_note(source.get()), "96x48"));
+  CHECK(has(notes_of(source), "3:2"));
+  CHECK(has(notes_of(source), "96x48"));
   const auto answers = play(source);
   REQUIRE(answers.size() == kFrames);
   CHECK(answers[20].image.width == 96);
@@ -138,7 +138,7 @@ TEST_CASE("video: nearly square pixels are left as they are") {
   const std::string nearly = ffmpeg(folder, clip, "-vf setsar=2000/1999 -c:v mpeg4", "nearly.mp4");
   REQUIRE_FFMPEG(nearly);
   const Source source = open_sequence(nearly);
-  CHECK(std::string(unisim_sequence_note(source.get())).empty());
+  CHECK(notes_of(source).empty());
   CHECK(play(source)[0].image.width == 64);
 }
 

@@ -64,7 +64,7 @@ PredictorPtr open_inner(const Options& options, std::vector<std::string>* notes)
 
 }  // namespace
 
-SourcePtr open_sequence(const Options& options, std::string* note) {
+SourcePtr open_sequence(const Options& options, std::vector<std::string>* notes) {
   unisim_sequence_options wanted{};
   wanted.struct_size = sizeof wanted;
   wanted.format = options.format.c_str();
@@ -74,7 +74,9 @@ SourcePtr open_sequence(const Options& options, std::string* note) {
   SourcePtr source(
       unisim_sequence_open(options.sequence.c_str(), &wanted, message, sizeof message));
   if (source == nullptr) throw tools::Failure(tools::kExitInput, message);
-  *note = unisim_sequence_note(source.get());
+  for (int32_t i = 0; unisim_sequence_note(source.get(), i) != nullptr; ++i) {
+    notes->emplace_back(unisim_sequence_note(source.get(), i));
+  }
   return source;
 }
 

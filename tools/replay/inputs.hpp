@@ -20,8 +20,8 @@ using SourcePtr = std::unique_ptr<unisim_source, Destroy>;
 using PredictorPtr = std::unique_ptr<unisim_predictor, Destroy>;
 
 /// Throws Failure (3).
-/// @param note one line worth telling, "" if none
-SourcePtr open_sequence(const Options& options, std::string* note);
+/// @param[out] notes lines worth telling
+SourcePtr open_sequence(const Options& options, std::vector<std::string>* notes);
 
 /// The predictor asked for, inside a recorder where --record asks for one. Throws Failure.
 /// @param[in,out] settings its windows are fitted to what the predictor can give

@@ -167,8 +167,8 @@ int conclude(const Run& run, const OutputFolder& folder, const std::string& reco
 
 int replay(const Options& options, const std::atomic<bool>& stop) {
   OutputFolder folder(options.out, output_names(options), options.force);
-  std::vector<std::string> notes(1);
-  const SourcePtr source = open_sequence(options, &notes[0]);
+  std::vector<std::string> notes;
+  const SourcePtr source = open_sequence(options, &notes);
   const eval::Trajectory truth = load_ground_truth(options.ground_truth, source.get());
   Settings settings = options.settings;
   const PredictorPtr predictor = open_predictor(options, &settings, &notes);
