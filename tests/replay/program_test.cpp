@@ -39,6 +39,28 @@ TEST_CASE("bad usage is one line and exit code 2") {
   require_failure(run_replay({"s", "--out", out, "--predictor", "recorded"}), 2, "--predictions");
 }
 
+TEST_CASE("a number on the command line is decimal and in its range") {
+  const auto refused = [](const std::string& option, const std::string& value,
+                          const std::string& range) {
+    INFO(option << " " << value);
+    require_failure(run_replay({"somewhere", "--out", "o", option, value}), 2,
+                    option + ": '" + value + "' is not " + range);
+  };
+  for (const char* value : {"nan", "inf", "-5", "0", "1e300", "five", "0x10"}) {
+    refused("--focal", value, "a number above 0 and up to 1e+06");
+  }
+  for (const char* value : {"0", "-1", "1.5", "99999999999999999999", "nan", "0x10", "5 "}) {
+    refused("--stride", value, "a whole number from 1 to 1000000");
+  }
+  refused("--from", "-1", "a whole number from 0 to 10000000000");
+  refused("--to", "1e9", "a whole number from 0 to 10000000000");
+  refused("--window", "1", "a whole number from 2 to 64");
+  refused("--overlap", "64", "a whole number from 0 to 63");
+  refused("--threads", "257", "a whole number from 1 to 256");
+  refused("--model-memory", "0", "a whole number from 1 to 100000000");
+  CHECK(has(run_replay({"--print-config", "--stride", "010"}).out, "stride = 10\n"));
+}
+
 TEST_CASE("what is not built yet is refused, not ignored") {
   const TempFolder folder;
   const std::string out = folder / "out";
@@ -79,8 +101,19 @@ TEST_CASE("a configuration file is checked key by key") {
   require_failure(run("[sesion]\nwindow_size = 8\n"), 2, "did you mean session.window_size?");
   require_failure(run("[session]\nwindow_size = \"8\"\n"), 2, "must be a whole number");
   require_failure(run("[pipeline]\nrealtime = 1\n"), 2, "must be true or false");
-  require_failure(run("[session]\nwindow_size = 8000000000\n"), 2, "out of range");
-  require_failure(run("[session\n"), 3, "run.toml:1");
+  require_failure(
+      run("[session]\nwindow_size = 8000000000\n"), 2,
+      "run.toml:2: session.window_size is 8000000000, must be a whole number from 2 to");
+  require_failure(run("[session]\nhuber_delta = nan\n"), 2,
+                  "run.toml:2: session.huber_delta is nan, must be a number above 0");
+  require_failure(run("[session]\nwindow_size = 4\nwindow_overlap = 4\n"), 2,
+                  "session.window_overlap (--overlap) is 4, must be less than");
+  require_failure(run("[session]\nwindow_submaps = 2\nmax_keyframes = 100\n"), 2,
+                  "session.max_keyframes is 100, must be at least 176");
+  require_failure(run("[pipeline]\nmin_gap = 8\nmax_gap = 4\n"), 2, "pipeline.max_gap is 4");
+  require_failure(run("[session\n"), 2, "run.toml:1");
+  require_failure(run_replay({"s", "--out", "o", "--config", folder.path()}), 2,
+                  folder.path() + ": a folder where a text file is expected");
   require_failure(run_replay({"s", "--out", "o", "--config", folder / "none.toml"}), 3,
                   "none.toml");
 }
