@@ -24,6 +24,12 @@ unisim_submap submap_of(const unisim_window_prediction& window) {
   return submap;
 }
 
+/// Not for want of a good configuration: that has been accepted.
+Preparation failed(unisim_status status) {
+  return {Preparation::Answer::kFailed,
+          std::string("session: cannot be made: ") + unisim_status_string(status)};
+}
+
 }  // namespace
 
 SessionClient::~SessionClient() { unisim_session_destroy(session_); }
@@ -31,10 +37,11 @@ SessionClient::~SessionClient() { unisim_session_destroy(session_); }
 Preparation SessionClient::create(const unisim_config& config) {
   size_t size = 0;
   unisim_status status = unisim_arena_size(&config, &size);
-  if (status != UNISIM_OK) {
+  if (status == UNISIM_ERR_INVALID_ARGUMENT) {
     return {Preparation::Answer::kBadConfiguration,
             std::string("session configuration: ") + unisim_status_string(status)};
   }
+  if (status != UNISIM_OK) return failed(status);
   arena_.reset(new (std::nothrow) char[size]);
   if (arena_ == nullptr) {
     return {Preparation::Answer::kNoMemory, "session: no memory for its " +
@@ -42,11 +49,7 @@ Preparation SessionClient::create(const unisim_config& config) {
                                                 " MiB; lower session.max_keyframes"};
   }
   status = unisim_session_create(&session_, &config, arena_.get(), size);
-  if (status != UNISIM_OK) {
-    return {Preparation::Answer::kBadConfiguration,
-            std::string("session: ") + unisim_status_string(status)};
-  }
-  return {};
+  return status == UNISIM_OK ? Preparation() : failed(status);
 }
 
 template <typename Call>

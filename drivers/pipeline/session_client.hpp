@@ -15,7 +15,7 @@ namespace unisim::pipeline {
 
 /// Whether a run can begin.
 struct Preparation {
-  enum class Answer { kReady, kBadConfiguration, kNoMemory };
+  enum class Answer { kReady, kBadConfiguration, kNoMemory, kFailed };
   Answer answer = Answer::kReady;
   std::string message;  ///< one line unless kReady
 };

@@ -153,6 +153,12 @@ TEST_CASE("unisim-bench says in one line what is wrong") {
   program.require_failure("window", 2, "--keyframes");
   program.require_failure("window --keyframes 10", 2, "--keyframes");
   program.require_failure("window --keyframes 60 --loops maybe", 2, "--loops");
+  program.require_failure("window --keyframes 60 --seed -1", 2, "--seed");
+  program.require_failure("window --keyframes 60 --false-loops nan", 2, "a number from 0 to 0.9");
+  program.require_failure("window --keyframes 60 --window-submaps -1", 2, "from 2 to 64, or 0");
+  program.require_failure("window --keyframes 60 --skeleton-capacity 7", 2,
+                          "from 8 to 65536, or 0");
+  program.require_failure("solver graph.usg --initial-lambda inf", 2, "--initial-lambda");
   program.folder().write("loose.usg",
                          "node 0 T 0 0 0 0 1 0 0 0 1\nnode 1 T 1 0 0 0 1 0 0 0 1\n"
                          "node 2 T 0 0 0 0 1 0 0 0 1\nedge v2v 0 1 1 0 0 0 0 1 1 0 0 1\n");

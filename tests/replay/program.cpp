@@ -28,29 +28,38 @@ void redirect(int stream, const std::string& path) {
   if (file < 0 || dup2(file, stream) < 0) _exit(126);
 }
 
+void close_reader(int stream) {
+  int ends[2];
+  if (pipe(ends) != 0 || dup2(ends[1], stream) < 0) _exit(126);
+  close(ends[0]);
+  close(ends[1]);
+}
+
 [[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments,
-                         const std::string& out, const std::string& err, long max_file_bytes) {
-  if (max_file_bytes >= 0) {
-    const auto bytes = static_cast<rlim_t>(max_file_bytes);
+                         const std::string& out, const std::string& err,
+                         const Disturbance& disturbance) {
+  if (disturbance.max_file_bytes >= 0) {
+    const auto bytes = static_cast<rlim_t>(disturbance.max_file_bytes);
     const rlimit limit = {bytes, bytes};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
   std::vector<char*> argv = {const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
-  redirect(STDOUT_FILENO, out);
+  redirect(STDOUT_FILENO, disturbance.reader == Reader::kFullDevice ? "/dev/full" : out);
   redirect(STDERR_FILENO, err);
+  if (disturbance.reader == Reader::kGone) {
+    close_reader(STDOUT_FILENO);
+    close_reader(STDERR_FILENO);
+  }
+  std::signal(SIGHUP, disturbance.hangup_ignored ? SIG_IGN : SIG_DFL);
   execv(program.c_str(), argv.data());
   _exit(127);
 }
 
-bool time_to_interrupt(const Disturbance& disturbance, Clock::duration elapsed,
-                       const std::string& out) {
-  if (!disturbance.interrupt_on.empty()) {
-    return read_file(out).find(disturbance.interrupt_on) != std::string::npos;
-  }
-  return disturbance.interrupt_after_s >= 0.0 &&
-         elapsed > std::chrono::duration<double>(disturbance.interrupt_after_s);
+bool time_to_interrupt(const Disturbance& disturbance, const std::string& out) {
+  return !disturbance.interrupt_on.empty() &&
+         read_file(out).find(disturbance.interrupt_on) != std::string::npos;
 }
 
 int wait_for(pid_t child, const Disturbance& disturbance, const std::string& out) {
@@ -59,7 +68,7 @@ int wait_for(pid_t child, const Disturbance& disturbance, const std::string& out
   int status = 0;
   while (waitpid(child, &status, WNOHANG) == 0) {
     const Clock::duration elapsed = Clock::now() - start;
-    if (!interrupted && time_to_interrupt(disturbance, elapsed, out)) {
+    if (!interrupted && time_to_interrupt(disturbance, out)) {
       interrupted = true;
       kill(child, disturbance.signal);
     }
@@ -76,7 +85,7 @@ ProgramResult run(const std::string& program, const std::vector<std::string>& ar
   const std::string err = folder / "err";
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("cannot start " + program);
-  if (child == 0) become(program, arguments, out, err, disturbance.max_file_bytes);
+  if (child == 0) become(program, arguments, out, err, disturbance);
   ProgramResult result;
   result.code = wait_for(child, disturbance, out);
   result.out = read_file(out);

@@ -16,11 +16,19 @@ struct ProgramResult {
   std::string err;  ///< stderr
 };
 
+/// Where the output of a run goes.
+enum class Reader {
+  kReads,       ///< kept for ProgramResult
+  kGone,        ///< pipes that nobody reads any more
+  kFullDevice,  ///< stdout only
+};
+
 /// Limits and disturbances of a run.
 struct Disturbance {
-  double interrupt_after_s = -1.0;  ///< the signal then
-  std::string interrupt_on;         ///< the signal once this stands in the output
+  std::string interrupt_on;  ///< `signal` is sent once this stands in the output
   int signal = SIGINT;
+  bool hangup_ignored = false;  ///< as by nohup
+  Reader reader = Reader::kReads;
   long max_file_bytes = -1;  ///< as on a full disk: larger files cannot be written
 };
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/replay/damaged_sequence.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"
 
@@ -16,64 +16,6 @@ using namespace unisim::testing;
 namespace fs = std::filesystem;
 
 namespace {
-
-int lines_in(const std::string& text) {
-  return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
-}
-
-/// Poses of a TUM file.
-int poses_in(const std::string& path) {
-  std::istringstream text(read_file(path));
-  int count = 0;
-  for (std::string line; std::getline(text, line);) count += line.empty() || line[0] == '#' ? 0 : 1;
-  return count;
-}
-
-/// A copy of the rendered sequence that a test may damage: images and rgb.txt.
-class Damaged {
- public:
-  Damaged() {
-    fs::copy(fs::path(rendered_sequence()) / "rgb", path() + "/rgb", fs::copy_options::recursive);
-    for (const char* name : {"rgb.txt", "groundtruth.txt"}) {
-      fs::copy_file(fs::path(rendered_sequence()) / name, path() + "/" + name);
-    }
-    std::istringstream list(read_file(path() + "/rgb.txt"));
-    for (std::string line; std::getline(list, line);) {
-      if (!line.empty() && line[0] != '#') lines.push_back(line);
-    }
-  }
-
-  std::string path() const { return folder_ / "."; }
-  std::string image(size_t k) const {
-    return path() + "/" + lines.at(k).substr(lines.at(k).find(' ') + 1);
-  }
-  double time(size_t k) const { return std::stod(lines.at(k)); }
-  void set_time(size_t k, double time) {
-    std::ostringstream line;
-    line.precision(6);
-    line << std::fixed << time << lines.at(k).substr(lines.at(k).find(' '));
-    lines.at(k) = line.str();
-  }
-  void save_list() const {
-    std::string text;
-    for (const std::string& line : lines) text += line + "\n";
-    write_file(path() + "/rgb.txt", text);
-  }
-
-  std::vector<std::string> lines;
-
- private:
-  TempFolder folder_;
-};
-
-std::vector<std::string> arguments(const std::string& sequence, const std::string& out) {
-  return {sequence, "--out", out, "--stride", "4", "--quiet"};
-}
-
-std::vector<std::string> with(std::vector<std::string> list, const std::vector<std::string>& more) {
-  list.insert(list.end(), more.begin(), more.end());
-  return list;
-}
 
 /// One clear line and nothing else.
 void require_failure(const ProgramResult& result, int code, const std::string& part) {
@@ -95,6 +37,28 @@ TEST_CASE("bad usage is one line and exit code 2") {
   require_failure(run_replay({"somewhere", "--out", out, "--stride", "0"}), 2, "--stride");
   require_failure(run_replay({"s", "--out", out, "--from", "5", "--to", "5"}), 2, "--to");
   require_failure(run_replay({"s", "--out", out, "--predictor", "recorded"}), 2, "--predictions");
+}
+
+TEST_CASE("a number on the command line is decimal and in its range") {
+  const auto refused = [](const std::string& option, const std::string& value,
+                          const std::string& range) {
+    INFO(option << " " << value);
+    require_failure(run_replay({"somewhere", "--out", "o", option, value}), 2,
+                    option + ": '" + value + "' is not " + range);
+  };
+  for (const char* value : {"nan", "inf", "-5", "0", "1e300", "five", "0x10"}) {
+    refused("--focal", value, "a number above 0 and up to 1e+06");
+  }
+  for (const char* value : {"0", "-1", "1.5", "99999999999999999999", "nan", "0x10", "5 "}) {
+    refused("--stride", value, "a whole number from 1 to 1000000");
+  }
+  refused("--from", "-1", "a whole number from 0 to 10000000000");
+  refused("--to", "1e9", "a whole number from 0 to 10000000000");
+  refused("--window", "1", "a whole number from 2 to 64");
+  refused("--overlap", "64", "a whole number from 0 to 63");
+  refused("--threads", "257", "a whole number from 1 to 256");
+  refused("--model-memory", "0", "a whole number from 1 to 100000000");
+  CHECK(has(run_replay({"--print-config", "--stride", "010"}).out, "stride = 10\n"));
 }
 
 TEST_CASE("what is not built yet is refused, not ignored") {
@@ -137,8 +101,19 @@ TEST_CASE("a configuration file is checked key by key") {
   require_failure(run("[sesion]\nwindow_size = 8\n"), 2, "did you mean session.window_size?");
   require_failure(run("[session]\nwindow_size = \"8\"\n"), 2, "must be a whole number");
   require_failure(run("[pipeline]\nrealtime = 1\n"), 2, "must be true or false");
-  require_failure(run("[session]\nwindow_size = 8000000000\n"), 2, "out of range");
-  require_failure(run("[session\n"), 3, "run.toml:1");
+  require_failure(
+      run("[session]\nwindow_size = 8000000000\n"), 2,
+      "run.toml:2: session.window_size is 8000000000, must be a whole number from 2 to");
+  require_failure(run("[session]\nhuber_delta = nan\n"), 2,
+                  "run.toml:2: session.huber_delta is nan, must be a number above 0");
+  require_failure(run("[session]\nwindow_size = 4\nwindow_overlap = 4\n"), 2,
+                  "session.window_overlap (--overlap) is 4, must be less than");
+  require_failure(run("[session]\nwindow_submaps = 2\nmax_keyframes = 100\n"), 2,
+                  "session.max_keyframes is 100, must be at least 176");
+  require_failure(run("[pipeline]\nmin_gap = 8\nmax_gap = 4\n"), 2, "pipeline.max_gap is 4");
+  require_failure(run("[session\n"), 2, "run.toml:1");
+  require_failure(run_replay({"s", "--out", "o", "--config", folder.path()}), 2,
+                  folder.path() + ": a folder where a text file is expected");
   require_failure(run_replay({"s", "--out", "o", "--config", folder / "none.toml"}), 3,
                   "none.toml");
 }
@@ -204,7 +179,7 @@ TEST_CASE("a rendered sequence gives a trajectory, its figures and the same byte
 }
 
 TEST_CASE("damaged frames are told and survived") {
-  Damaged sequence;
+  DamagedSequence sequence;
   const TempFolder folder;
   std::string told;
   SECTION("truncated image") {
@@ -253,7 +228,7 @@ TEST_CASE("an image with the time of another is told and left out") {
 }
 
 TEST_CASE("a sequence of damaged images only is bad input") {
-  Damaged sequence;
+  DamagedSequence sequence;
   const TempFolder folder;
   for (size_t k = 0; k < sequence.lines.size(); ++k) fs::resize_file(sequence.image(k), 100);
   const ProgramResult result = run_replay(arguments(sequence.path(), folder / "out"));
@@ -288,7 +263,7 @@ TEST_CASE("ground truth that cannot be read is known before the work starts") {
 }
 
 TEST_CASE("a camera that does not move gives no trajectory") {
-  Damaged sequence;
+  DamagedSequence sequence;
   const TempFolder folder;
   const std::string still = read_file(sequence.image(0));
   for (size_t k = 1; k < sequence.lines.size(); ++k) write_file(sequence.image(k), still);
@@ -297,54 +272,6 @@ TEST_CASE("a camera that does not move gives no trajectory") {
   CHECK(result.code == 3);
   CHECK(has(result.err, "not enough motion"));
   CHECK_FALSE(fs::exists((folder / "out") + "/trajectory.tum"));
-}
-
-TEST_CASE("Ctrl-C writes what there is and says so") {
-  Damaged sequence;
-  for (size_t k = 1; k < sequence.lines.size(); ++k) {
-    sequence.set_time(k, sequence.time(0) + 0.2 * static_cast<double>(k));
-  }
-  sequence.save_list();
-  const TempFolder folder;
-  const std::string out = folder / "out";
-  Disturbance disturbance;
-  disturbance.interrupt_on = "\"state\":\"tracking\"";
-  const ProgramResult result = run_replay(
-      {sequence.path(), "--out", out, "--stride", "2", "--realtime", "--json"}, disturbance);
-  INFO(result.err);
-  CHECK(result.code == 1);
-  CHECK(has(result.err, "interrupted; what was known is written"));
-  const int poses = poses_in(out + "/trajectory.tum");
-  CHECK(poses >= 2);
-  CHECK(poses < 40);
-  const nlohmann::json summary = nlohmann::json::parse(read_file(out + "/summary.json"));
-  CHECK(summary.at("outcome") == "interrupted");
-}
-
-TEST_CASE("a run that is killed leaves the live poses up to then") {
-  Damaged sequence;
-  for (size_t k = 1; k < sequence.lines.size(); ++k) {
-    sequence.set_time(k, sequence.time(0) + 0.1 * static_cast<double>(k));
-  }
-  sequence.save_list();
-  const TempFolder folder;
-  const std::string out = folder / "out";
-  Disturbance disturbance;
-  disturbance.interrupt_on = "\"state\":\"tracking\"";
-  disturbance.signal = SIGKILL;
-  const ProgramResult result = run_replay(
-      {sequence.path(), "--out", out, "--stride", "2", "--realtime", "--json"}, disturbance);
-  CHECK(result.code == 128 + SIGKILL);
-  const std::string text = read_file(out + "/trajectory_live.tum");
-  CHECK(text.back() == '\n');
-  const std::string progress = result.out.substr(result.out.rfind("{\"type\":\"progress\""));
-  CHECK(poses_in(out + "/trajectory_live.tum") >=
-        nlohmann::json::parse(progress).at("keyframes").get<int>());
-  std::vector<std::string> left;
-  for (const fs::directory_entry& entry : fs::directory_iterator(out)) {
-    left.push_back(entry.path().filename().string());
-  }
-  CHECK(left == std::vector<std::string>{"trajectory_live.tum"});
 }
 
 TEST_CASE("a bounded run that the session has forgotten in part writes every keyframe") {

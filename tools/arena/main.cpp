@@ -22,8 +22,8 @@ std::vector<unisim_arena_part> parts_of(const unisim_config& config) {
   std::vector<unisim_arena_part> parts(status == UNISIM_ERR_CAPACITY ? count : 0);
   if (!parts.empty()) status = unisim_arena_parts(&config, parts.data(), parts.size(), &count);
   if (status != UNISIM_OK) {
-    throw Failure(unisim::tools::kExitUsage,
-                  "a value of [session] is out of range: see the ranges in unisim/unisim.h");
+    throw Failure(unisim::tools::kExitOther,
+                  std::string("session: ") + unisim_status_string(status));
   }
   return parts;
 }
@@ -46,6 +46,8 @@ int arena(int argc, const char* const* argv) {
   if (!unisim::tools::parse(&app, argc, argv)) return unisim::tools::kExitDone;
   unisim::replay::Settings settings = unisim::replay::default_settings();
   if (!file.empty()) unisim::replay::load_settings(file, &settings);
+  settings.max_keyframes_given = true;  // there is no sequence that it could follow from
+  unisim::replay::check_together(settings);
   print(settings.session);
   return unisim::tools::kExitDone;
 }

@@ -18,16 +18,24 @@
 namespace {
 
 using namespace unisim::bench;
+using unisim::tools::in_range;
+using unisim::tools::Range;
+
+// More than anybody waits for, and sums of as many stay within their type.
+constexpr int64_t kMany = 1000000;
+constexpr int64_t kLargestSeed = 1000000000000000;  // exact as a double too
+// Beyond any sensible damping or step, and its square is finite.
+constexpr double kLarge = 1e100;
 
 void add_solver(CLI::App* app, SolverSettings* settings) {
   CLI::App* command = app->add_subcommand("solver", "Solve a pose graph of a file");
   command->add_option("graph", settings->graph, "GRAPH.usg or GRAPH.g2o")->required();
   command->add_option("--repeat", settings->repeat, "runs, one result each")
-      ->check(CLI::PositiveNumber);
+      ->transform(in_range(Range::whole(1, kMany)));
   command->add_option("--max-iterations", settings->max_iterations, "cap of one run")
-      ->check(CLI::PositiveNumber);
+      ->transform(in_range(Range::whole(1, kMany)));
   command->add_option("--initial-lambda", settings->initial_lambda, "start damping")
-      ->check(CLI::PositiveNumber);
+      ->transform(in_range(Range::above(0.0, kLarge)));
   command->add_flag("--json", settings->json, "one line of JSON per run");
 }
 
@@ -36,17 +44,17 @@ void add_updates(CLI::App* app, UpdateSettings* settings) {
       app->add_subcommand("updates", "Live updates of a pose graph that arrives submap by submap");
   command->add_option("graph", settings->graph, "GRAPH.usg")->required();
   command->add_option("--from", settings->from, "keyframes there are before an update counts")
-      ->check(CLI::NonNegativeNumber);
+      ->transform(in_range(Range::whole(0, kMany)));
   command->add_option("--iterations", settings->iterations, "of each update")
-      ->check(CLI::PositiveNumber);
+      ->transform(in_range(Range::whole(1, kMany)));
   command
       ->add_option("--least-move", settings->least_move,
                    "nodes that would move less stay; 0: everything is computed anew each time")
-      ->check(CLI::NonNegativeNumber);
+      ->transform(in_range(Range::number(0.0, kLarge)));
   command
       ->add_option("--relinearize", settings->relinearize,
                    "edges that have changed less keep their part of H; 0: none does")
-      ->check(CLI::NonNegativeNumber);
+      ->transform(in_range(Range::number(0.0, kLarge)));
   command->add_flag("--json", settings->json, "one line of JSON");
 }
 
@@ -55,7 +63,7 @@ void add_covariance(CLI::App* app, CovarianceSettings* settings) {
       app->add_subcommand("covariance", "Covariances of a pose graph: of one pose and of all");
   command->add_option("graph", settings->graph, "GRAPH.usg or GRAPH.g2o")->required();
   command->add_option("--repeat", settings->repeat, "measurements, their median is shown")
-      ->check(CLI::PositiveNumber);
+      ->transform(in_range(Range::whole(1, kMany)));
   command->add_flag("--json", settings->json, "one line of JSON");
 }
 
@@ -68,25 +76,30 @@ void add_window(CLI::App* app, WalkSettings* settings, bool* json) {
   CLI::App* command = app->add_subcommand("window", "A simulated walk through a session");
   command->add_option("--keyframes", settings->keyframes, "length of the walk")
       ->required()
-      ->check(CLI::Range(32, 65536));
-  command->add_option("--seed", settings->seed, "of world and predictions");
+      ->transform(in_range(Range::whole(32, 65536)));
+  command->add_option("--seed", settings->seed, "of world and predictions")
+      ->transform(in_range(Range::whole(0, kLargestSeed)));
   command->add_option("--world", settings->world, "walk, scan or room")
       ->transform(CLI::CheckedTransformer(std::map<std::string, WorldKind>{
           {"walk", WorldKind::kWalk}, {"scan", WorldKind::kScan}, {"room", WorldKind::kRoom}}));
   command->add_option("--loops", settings->loops, "on or off")->transform(on_off());
   command->add_option("--submaps", settings->submaps, "on or off")->transform(on_off());
   command->add_option("--false-loops", settings->false_loops, "share of loops that are none")
-      ->check(CLI::Range(0.0, 0.9));
+      ->transform(in_range(Range::number(0.0, 0.9)));
   command->add_option("--iterations", settings->iterations, "after each submap and loop")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--window-submaps", settings->window_submaps,
-                      "newest submaps whose keyframes are optimised; 0: the full batch");
-  command->add_option("--skeleton-capacity", settings->skeleton_capacity,
-                      "older submaps that are optimised one by one; 0: no limit");
+      ->transform(in_range(Range::whole(1, kMany)));
+  command
+      ->add_option("--window-submaps", settings->window_submaps,
+                   "newest submaps whose keyframes are optimised; 0: the full batch")
+      ->transform(in_range(Range::whole(2, 64).or_zero()));
+  command
+      ->add_option("--skeleton-capacity", settings->skeleton_capacity,
+                   "older submaps that are optimised one by one; 0: no limit")
+      ->transform(in_range(Range::whole(8, 65536).or_zero()));
   command
       ->add_option("--readable", settings->readable,
                    "newest keyframes that stay readable in a sliding window; 0: all")
-      ->check(CLI::Range(0, 65536));
+      ->transform(in_range(Range::whole(0, 65536)));
   command->add_option("--batch", settings->batch, "on: walk once more as a full batch, to compare")
       ->transform(on_off());
   command->add_flag("--json", *json, "one line of JSON");
@@ -95,7 +108,7 @@ void add_window(CLI::App* app, WalkSettings* settings, bool* json) {
 void add_depth(CLI::App* app, DepthSettings* settings) {
   CLI::App* command = app->add_subcommand("depth", "Ratios of depth maps, by size");
   command->add_option("--repeat", settings->repeat, "measurements per size, the median is shown")
-      ->check(CLI::PositiveNumber);
+      ->transform(in_range(Range::whole(1, kMany)));
   command->add_flag("--json", settings->json, "one line of JSON");
 }
 

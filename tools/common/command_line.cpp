@@ -26,4 +26,19 @@ bool parse(CLI::App* app, int argc, const char* const* argv) {
   }
 }
 
+CLI::Validator in_range(const Range& range) {
+  const auto check = [range](std::string& text) -> std::string {
+    const std::string problem = "'" + text + "' is not " + range.text();
+    if (!range.is_whole()) {
+      const auto value = parse_number(text);
+      return value && range.holds(*value) ? "" : problem;
+    }
+    const auto value = parse_whole(text);
+    if (!value || !range.holds(static_cast<double>(*value))) return problem;
+    text = std::to_string(*value);
+    return "";
+  };
+  return CLI::Validator(check, "");
+}
+
 }  // namespace unisim::tools

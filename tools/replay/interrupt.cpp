@@ -20,6 +20,11 @@ const std::atomic<bool>& catch_interrupts() {
   action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction hangup{};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler == SIG_IGN) return interrupted;
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGHUP, &action, nullptr);
   return interrupted;
 }
 

@@ -9,11 +9,18 @@
 
 #include "tools/common/command_line.hpp"
 #include "tools/common/failure.hpp"
+#include "tools/replay/settings_fields.hpp"
 #include "tools/replay/version.hpp"
 #include "tools/replay/window_layout.hpp"
 
 namespace unisim::replay {
 namespace {
+
+using tools::in_range;
+using tools::Range;
+
+// Three years of video.
+constexpr int64_t kMostFrames = 10000000000;
 
 const std::map<std::string, uint32_t> kFactors = {
     {"e2v", UNISIM_FACTOR_TWO_VIEW},
@@ -35,7 +42,6 @@ struct Given {
   bool every_frame = false;
   bool batch = false;
   bool realtime = false;
-  bool no_loop = false;
   std::string model;
   std::optional<int32_t> threads;
   std::optional<int32_t> memory_mb;
@@ -48,10 +54,12 @@ void add_input_options(CLI::App* app, Options* options, Given* given) {
                   "auto, tum, 7scenes, euroc, kitti, replica, images or video")
       ->check(CLI::IsMember(
           {"auto", "tum", "7scenes", "euroc", "kitti", "replica", "images", "video", "lcm"}));
-  app->add_option("--from", options->from, "first frame")->check(CLI::NonNegativeNumber);
-  app->add_option("--to", options->to, "frame after the last one")->check(CLI::NonNegativeNumber);
+  app->add_option("--from", options->from, "first frame")
+      ->transform(in_range(Range::whole(0, kMostFrames)));
+  app->add_option("--to", options->to, "frame after the last one")
+      ->transform(in_range(Range::whole(0, kMostFrames)));
   app->add_option("--focal", given->focal, "known focal length in pixels (default: estimated)")
-      ->check(CLI::PositiveNumber);
+      ->transform(in_range(Range::above(0.0, kMostFocalPx)));
   app->add_option("--ground-truth", options->ground_truth,
                   "poses in TUM format (default: what the sequence carries)");
   app->add_flag("--realtime", given->realtime, "keep to the recorded times, drop late frames");
@@ -63,17 +71,19 @@ void add_method_options(CLI::App* app, Options* options, Given* given) {
   app->add_option("--predictions", options->predictions, "file written by --record");
   app->add_option("--record", options->record, "store every prediction in this file");
   app->add_option("--stride", given->stride, "every N-th frame is a keyframe (default: by motion)")
-      ->check(CLI::PositiveNumber);
+      ->transform(in_range(Range::whole(1, kMostStride)));
   app->add_flag("--every-frame", given->every_frame, "also pose the frames between keyframes");
-  app->add_option("--window", given->window, "keyframes of a submap (default: 16)");
+  app->add_option("--window", given->window, "keyframes of a submap (default: 16)")
+      ->transform(in_range(Range::whole(2, UNISIM_MAX_VIEWS)));
   app->add_option("--overlap", given->overlap,
-                  "keyframes shared by neighbouring submaps (default: 8; of networks 2)");
+                  "keyframes shared by neighbouring submaps (default: 8; of networks 2)")
+      ->transform(in_range(Range::whole(0, UNISIM_MAX_VIEWS - 1)));
   app->add_flag("--batch", given->batch,
                 "keep the whole map within a declared number of keyframes (default: the newest 24 "
                 "submaps and a skeleton of the older ones, in the same memory for ever)");
   app->add_option("--config", given->config, "TOML file, see --print-config");
   app->add_flag("--print-config", options->print_config, "print the effective configuration, end");
-  app->add_flag("--no-loop", given->no_loop, "close no loops (none are closed in this version)");
+  app->add_flag("--no-loop", "close no loops; no effect yet: none are closed");
   app->add_option("--disable", given->disabled,
                   "leave a factor out: e2v anchor bridge tie scale, "
                   "or a group: v2s s2s")
@@ -94,11 +104,11 @@ void add_model_options(CLI::App* app, Options* options, Given* given) {
       ->capture_default_str()
       ->group(group);
   app->add_option("--threads", given->threads, "of one inference (default: one per core)")
-      ->check(CLI::PositiveNumber)
+      ->transform(in_range(Range::whole(1, kMostThreads)))
       ->group(group);
   app->add_option("--model-memory", given->memory_mb,
                   "MB one inference and kept keyframes may take (default: half of the machine's)")
-      ->check(CLI::PositiveNumber)
+      ->transform(in_range(Range::whole(1, kMostMemoryMb)))
       ->group(group);
   app->add_option("--onnx-runtime", options->onnx_runtime,
                   "libonnxruntime to open (default: UNISIM_ORT_LIB, bootstrap's, the system's)")
@@ -152,7 +162,6 @@ void check(const Options& options) {
   const auto require = [](bool good, const char* line) {
     if (!good) throw tools::Failure(tools::kExitUsage, line);
   };
-  const pipeline::Options& run = options.settings.pipeline;
   require(!options.sequence.empty(), "SEQUENCE is missing: give a folder, a glob or a video file");
   require(!options.out.empty(), "--out is missing: give a folder for the results");
   require(options.to < 0 || options.to > options.from, "--to must be greater than --from");
@@ -166,11 +175,7 @@ void check(const Options& options) {
   require(onnx || (options.model_pair.empty() && options.model_window.empty() &&
                    options.model_encoder.empty()),
           "--model, --model-2v, --model-mv and --model-encoder go with --predictor onnx");
-  require(run.keyframes.stride >= 0, "pipeline.stride must be 0 or more");
-  require(run.keyframes.min_gap >= 1, "pipeline.min_gap must be 1 or more");
-  require(run.keyframes.max_gap >= run.keyframes.min_gap,
-          "pipeline.max_gap must be at least pipeline.min_gap");
-  require(run.queue_frames >= 1 && run.queue_frames <= 256, "pipeline.queue_frames must be 1..256");
+  check_together(options.settings);
 }
 
 }  // namespace

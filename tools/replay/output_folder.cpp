@@ -5,7 +5,9 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <system_error>
 
@@ -66,12 +68,35 @@ void write_all(const fs::path& path, const std::string& text) {
   if (problem != 0) throw std::system_error(problem, std::generic_category());
 }
 
+constexpr const char* kPartEnding = ".part";
+
+std::string part_stem(const std::string& name) { return "." + name + "."; }
+
+bool begins_and_ends(const std::string& text, const std::string& begin, const std::string& end) {
+  return text.size() >= begin.size() + end.size() && text.rfind(begin, 0) == 0 &&
+         text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// What a run that was killed has left; nobody else writes here now.
+void remove_parts(const fs::path& path, const std::vector<std::string>& names) {
+  std::error_code ignored;
+  for (fs::directory_iterator file(path, ignored), end; file != end; file.increment(ignored)) {
+    const std::string found = file->path().filename().string();
+    const auto left_over = [&](const std::string& name) {
+      return begins_and_ends(found, part_stem(name), kPartEnding);
+    };
+    if (std::any_of(names.begin(), names.end(), left_over)) fs::remove(file->path(), ignored);
+  }
+}
+
 }  // namespace
 
 OutputFolder::OutputFolder(const std::string& path, const std::vector<std::string>& names,
                            bool force)
-    : path_(path) {
+    : path_(path), force_(force) {
   make_folder(path_);
+  lock_ = std::make_unique<tools::FolderLock>(path);
+  remove_parts(path_, names);
   for (const std::string& name : names) {
     std::error_code error;
     if (!force && fs::exists(path_ / name, error)) {
@@ -85,11 +110,11 @@ OutputFolder::OutputFolder(const std::string& path, const std::vector<std::strin
 void OutputFolder::write(const std::string& name,
                          const std::function<void(const fs::path&)>& write) {
   const fs::path whole = path_ / name;
-  const fs::path part = path_ / ("." + name + ".part");
+  const fs::path part = path_ / (part_stem(name) + std::to_string(getpid()) + kPartEnding);
   std::error_code ignored;
   try {
     write(part);
-    fs::rename(part, whole);
+    place(part, whole);
     written_.push_back(whole.string());
   } catch (const std::system_error& error) {
     failures_.push_back(whole.string() + ": " + error.code().message());
@@ -105,6 +130,15 @@ void OutputFolder::add(const std::string& path, const std::string& problem) {
     written_.push_back(path);
   else
     failures_.push_back(path + ": " + problem);
+}
+
+void OutputFolder::place(const fs::path& part, const fs::path& whole) const {
+  const unsigned flags = force_ ? 0 : RENAME_NOREPLACE;
+  if (::renameat2(AT_FDCWD, part.c_str(), AT_FDCWD, whole.c_str(), flags) == 0) return;
+  // Not every file system can do that in one step.
+  if (errno != EINVAL && errno != ENOSYS) throw std::system_error(errno, std::generic_category());
+  if (!force_ && fs::exists(whole)) throw std::system_error(EEXIST, std::generic_category());
+  fs::rename(part, whole);
 }
 
 void OutputFolder::write_text(const std::string& name, const std::string& text) {

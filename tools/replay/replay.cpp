@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "drivers/recorded/recorded.h"
@@ -45,12 +46,25 @@ ProgressLine::Style progress_style(const Options& options) {
   return isatty(STDERR_FILENO) != 0 ? ProgressLine::Style::kTerminal : ProgressLine::Style::kLines;
 }
 
-void prepare(pipeline::Pipeline* pipeline) {
+int exit_code(pipeline::Preparation::Answer answer) {
   using Answer = pipeline::Preparation::Answer;
+  switch (answer) {
+    case Answer::kReady:
+      return tools::kExitDone;
+    case Answer::kBadConfiguration:
+      return tools::kExitUsage;
+    case Answer::kNoMemory:
+      return tools::kExitLimit;
+    case Answer::kFailed:
+      break;
+  }
+  return tools::kExitOther;
+}
+
+void prepare(pipeline::Pipeline* pipeline) {
   const pipeline::Preparation preparation = pipeline->prepare();
-  if (preparation.answer == Answer::kReady) return;
-  const int code = preparation.answer == Answer::kNoMemory ? tools::kExitLimit : tools::kExitUsage;
-  throw tools::Failure(code, preparation.message);
+  if (preparation.answer == pipeline::Preparation::Answer::kReady) return;
+  throw tools::Failure(exit_code(preparation.answer), preparation.message);
 }
 
 /// A recording of the geometric predictor is filtered as the predictor itself: the same map.
@@ -175,9 +189,10 @@ int replay(const Options& options, const std::atomic<bool>& stop) {
 
   unisim_config config = settings.session;
   if (config.window_submaps == 0 && !options.settings.max_keyframes_given) {
-    config.max_keyframes =
+    config.max_keyframes = std::max(
         pipeline::keyframe_capacity(source->frame_count(source.get()),
-                                    options.settings.pipeline.keyframes, kUnknownLengthKeyframes);
+                                    options.settings.pipeline.keyframes, kUnknownLengthKeyframes),
+        least_keyframes(config));
   }
   ProgressLine progress(progress_style(options));
   for (const std::string& note : notes) {

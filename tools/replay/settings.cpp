@@ -5,12 +5,14 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <limits>
+#include <filesystem>
+#include <optional>
 #include <sstream>
-#include <variant>
+#include <system_error>
 #include <vector>
 
 #include "tools/common/failure.hpp"
+#include "tools/replay/settings_fields.hpp"
 
 namespace unisim::replay {
 namespace {
@@ -20,91 +22,6 @@ namespace {
 // redkitchen ends at 0.0079 m (frames 0-499), with 8 at 0.0074, with 24 at 0.0068, where the full
 // batch does. An update takes twice the time it takes with 2, the arena half as much again.
 constexpr int32_t kSlidingSubmaps = 24;
-
-using Target = std::variant<int32_t*, uint32_t*, double*, bool*>;
-
-struct Field {
-  std::string section;
-  std::string key;
-  Target target;
-
-  std::string name() const { return section + "." + key; }
-};
-
-void add_session_fields(unisim_config* c, std::vector<Field>* fields) {
-  const char* s = "session";
-  fields->insert(fields->end(), {{s, "preset", &c->preset},
-                                 {s, "window_size", &c->window_size},
-                                 {s, "window_overlap", &c->window_overlap},
-                                 {s, "max_keyframes", &c->max_keyframes},
-                                 {s, "max_submaps", &c->max_submaps},
-                                 {s, "max_loops", &c->max_loops},
-                                 {s, "depth_grid_width", &c->depth_grid_width},
-                                 {s, "depth_grid_height", &c->depth_grid_height},
-                                 {s, "disabled_factors", &c->disabled_factors},
-                                 {s, "weight_two_view", &c->weight_two_view},
-                                 {s, "weight_bridge", &c->weight_bridge},
-                                 {s, "weight_scale_anchor", &c->weight_scale_anchor},
-                                 {s, "weight_tie", &c->weight_tie},
-                                 {s, "weight_scale", &c->weight_scale},
-                                 {s, "huber_delta", &c->huber_delta},
-                                 {s, "loop_delta", &c->loop_delta},
-                                 {s, "live_scale_exponent", &c->live_scale_exponent},
-                                 {s, "confidence_drop", &c->confidence_drop},
-                                 {s, "sigma_reference", &c->sigma_reference},
-                                 {s, "sigma_gate", &c->sigma_gate},
-                                 {s, "sigma_gate_loop", &c->sigma_gate_loop},
-                                 {s, "scatter_gate", &c->scatter_gate},
-                                 {s, "loop_gate", &c->loop_gate},
-                                 {s, "window_submaps", &c->window_submaps},
-                                 {s, "skeleton_capacity", &c->skeleton_capacity},
-                                 {s, "lost_after", &c->lost_after},
-                                 {s, "max_iterations", &c->max_iterations}});
-}
-
-void add_pipeline_fields(pipeline::Options* o, std::vector<Field>* fields) {
-  const char* s = "pipeline";
-  fields->insert(fields->end(), {{s, "stride", &o->keyframes.stride},
-                                 {s, "flow", &o->keyframes.flow},
-                                 {s, "tracked", &o->keyframes.tracked},
-                                 {s, "min_gap", &o->keyframes.min_gap},
-                                 {s, "max_gap", &o->keyframes.max_gap},
-                                 {s, "queue_frames", &o->queue_frames},
-                                 {s, "every_frame", &o->every_frame},
-                                 {s, "realtime", &o->realtime}});
-}
-
-void add_geometric_fields(unisim_geometric_config* c, std::vector<Field>* fields) {
-  const char* s = "geometric";
-  fields->insert(fields->end(), {{s, "max_tracks", &c->max_tracks},
-                                 {s, "max_keyframes", &c->max_keyframes},
-                                 {s, "max_landmarks", &c->max_landmarks},
-                                 {s, "max_window_views", &c->max_window_views},
-                                 {s, "window_size", &c->window_size},
-                                 {s, "adjust_every", &c->adjust_every},
-                                 {s, "adjust_latency", &c->adjust_latency},
-                                 {s, "background", &c->background},
-                                 {s, "revive_age", &c->revive_age},
-                                 {s, "revive_tries", &c->revive_tries},
-                                 {s, "focal_px", &c->focal_px}});
-}
-
-void add_onnx_fields(unisim_onnx_config* c, std::vector<Field>* fields) {
-  const char* s = "onnx";
-  fields->insert(fields->end(), {{s, "threads", &c->threads},
-                                 {s, "memory_mb", &c->memory_mb},
-                                 {s, "keyframe_interval", &c->keyframe_interval},
-                                 {s, "min_pose_confidence", &c->min_pose_confidence}});
-}
-
-std::vector<Field> all_fields(Settings* settings) {
-  std::vector<Field> fields;
-  add_session_fields(&settings->session, &fields);
-  add_pipeline_fields(&settings->pipeline, &fields);
-  add_geometric_fields(&settings->geometric, &fields);
-  add_onnx_fields(&settings->onnx, &fields);
-  return fields;
-}
 
 /// Insertions, deletions and changes of a letter that turn a into b.
 size_t edit_distance(const std::string& a, const std::string& b) {
@@ -140,28 +57,38 @@ struct Place {
   }
 };
 
-template <typename Integer>
-void set_integer(const toml::node& value, const Place& place, Integer* target) {
-  const auto number = value.value_exact<int64_t>();
-  if (!number) throw place.failure("must be a whole number");
-  const bool fits = *number >= int64_t{std::numeric_limits<Integer>::min()} &&
-                    *number <= int64_t{std::numeric_limits<Integer>::max()};
-  if (!fits) throw place.failure("is out of range");
-  *target = static_cast<Integer>(*number);
+/// As it stands in the file, where it is short enough to repeat.
+std::string value_text(const toml::node& value) {
+  std::ostringstream text;
+  if (const auto* word = value.as_string()) text << '"' << word->get() << '"';
+  if (const auto* whole = value.as_integer()) text << whole->get();
+  if (const auto* real = value.as_floating_point()) text << real->get();
+  if (const auto* flag = value.as_boolean()) text << (flag->get() ? "true" : "false");
+  return text.str();
 }
 
-void set_value(const toml::node& value, const Place& place, const Target& target) {
-  if (auto* const* whole = std::get_if<int32_t*>(&target)) return set_integer(value, place, *whole);
-  if (auto* const* bits = std::get_if<uint32_t*>(&target)) return set_integer(value, place, *bits);
-  if (auto* const* real = std::get_if<double*>(&target)) {
-    const auto number = value.value<double>();
-    if (!number || !value.is_number()) throw place.failure("must be a number");
-    **real = *number;
+std::optional<double> number_in(const toml::node& value, const tools::Range& range) {
+  if (!value.is_integer() && (range.is_whole() || !value.is_floating_point())) return std::nullopt;
+  const auto number = value.value<double>();
+  return number && range.holds(*number) ? number : std::nullopt;
+}
+
+void set_value(const toml::node& value, const Place& place, const Field& field) {
+  const std::string is = "is " + value_text(value) + ", must be ";
+  if (auto* const* flag = std::get_if<bool*>(&field.target)) {
+    if (!value.is_boolean()) throw place.failure(is + "true or false");
+    **flag = value.as_boolean()->get();
     return;
   }
-  const auto flag = value.value_exact<bool>();
-  if (!flag) throw place.failure("must be true or false");
-  *std::get<bool*>(target) = *flag;
+  const auto number = number_in(value, field.range);
+  if (!number) throw place.failure(is + field.range.text());
+  if (auto* const* whole = std::get_if<int32_t*>(&field.target)) {
+    **whole = static_cast<int32_t>(*number);
+  } else if (auto* const* bits = std::get_if<uint32_t*>(&field.target)) {
+    **bits = static_cast<uint32_t>(*number);
+  } else {
+    **std::get_if<double*>(&field.target) = *number;
+  }
 }
 
 void set_section(const std::string& path, const std::string& section, const toml::table& table,
@@ -174,17 +101,22 @@ void set_section(const std::string& path, const std::string& section, const toml
     if (found == fields.end()) {
       throw place.failure("is not known; did you mean " + nearest_name(fields, place.name) + "?");
     }
-    set_value(value, place, found->target);
+    set_value(value, place, *found);
   }
 }
 
 toml::table parse_file(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw tools::Failure(tools::kExitUsage, path + ": a folder where a text file is expected");
+  }
   try {
     return toml::parse_file(path);
   } catch (const toml::parse_error& error) {
     const auto line = error.source().begin.line;
-    const std::string where = line > 0 ? path + ":" + std::to_string(line) : path;
-    throw tools::Failure(tools::kExitInput, where + ": " + std::string(error.description()));
+    const std::string what = ": " + std::string(error.description());
+    if (line == 0) throw tools::Failure(tools::kExitInput, path + what);
+    throw tools::Failure(tools::kExitUsage, path + ":" + std::to_string(line) + what);
   }
 }
 
@@ -218,6 +150,31 @@ void load_settings(const std::string& path, Settings* settings) {
   if (file.at_path("session.window_size")) settings->window_size_given = true;
   if (file.at_path("session.window_overlap")) settings->window_overlap_given = true;
   if (file.at_path("session.max_keyframes")) settings->max_keyframes_given = true;
+}
+
+void check_together(const Settings& settings) {
+  const auto require = [](bool good, const std::string& line) {
+    if (!good) throw tools::Failure(tools::kExitUsage, line);
+  };
+  const unisim_config& session = settings.session;
+  const pipeline::KeyframeConfig& keyframes = settings.pipeline.keyframes;
+  require(session.window_overlap < session.window_size,
+          "session.window_overlap (--overlap) is " + std::to_string(session.window_overlap) +
+              ", must be less than session.window_size (--window), " +
+              std::to_string(session.window_size));
+  require(keyframes.max_gap >= keyframes.min_gap,
+          "pipeline.max_gap is " + std::to_string(keyframes.max_gap) +
+              ", must be at least pipeline.min_gap, " + std::to_string(keyframes.min_gap));
+  require(!settings.max_keyframes_given || session.max_keyframes >= least_keyframes(session),
+          "session.max_keyframes is " + std::to_string(session.max_keyframes) +
+              ", must be at least " + std::to_string(least_keyframes(session)) +
+              " with session.window_submaps " + std::to_string(session.window_submaps));
+}
+
+int32_t least_keyframes(const unisim_config& session) {
+  constexpr int32_t kWaitingWindows = 9;  // as stated at unisim_config.max_keyframes
+  if (session.window_submaps == 0) return 2;
+  return (session.window_submaps + kWaitingWindows) * session.window_size;
 }
 
 std::string settings_text(const Settings& settings) {

@@ -25,9 +25,16 @@ struct Settings {
 
 Settings default_settings();
 
-/// Changes what the file names. Throws Failure: unreadable file (3), or (2) unknown section or key,
-/// with the nearest known one, or a value of the wrong type or range.
+/// Changes what the file names. Throws Failure: no such file (3), or (2) a folder, a syntax error,
+/// an unknown section or key, with the nearest known one, a value of the wrong type or range; with
+/// file, line and field.
 void load_settings(const std::string& path, Settings* settings);
+
+/// Least session.max_keyframes that the other fields allow.
+int32_t least_keyframes(const unisim_config& session);
+
+/// Ranges that depend on other fields. Throws Failure (2) that names them.
+void check_together(const Settings& settings);
 
 /// All fields as a file that load_settings() reads.
 std::string settings_text(const Settings& settings);

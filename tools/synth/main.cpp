@@ -13,6 +13,10 @@
 namespace {
 
 using unisim::synth::SequenceOptions;
+using unisim::tools::in_range;
+using unisim::tools::Range;
+
+constexpr int64_t kLargestSeed = 1000000000000000;  // exact as a double too
 
 void parse_size(const std::string& text, SequenceOptions* options) {
   int read = 0;
@@ -46,13 +50,23 @@ int synth(int argc, const char* const* argv) {
   app.add_option("OUT", options.folder, "folder to write, made if absent")->required();
   app.add_option("--scene", options.scene, "room corridor desk rotation lowtexture static")
       ->capture_default_str();
-  app.add_option("--frames", options.frames, "number of frames")->capture_default_str();
+  app.add_option("--frames", options.frames, "number of frames")
+      ->transform(in_range(Range::whole(1, 1000000)))
+      ->capture_default_str();
   app.add_option("--size", size, "image size, WxH")->capture_default_str();
-  app.add_option("--loops", options.loops, "rounds of the path; 0: open path [1; corridor 0]");
-  app.add_option("--seed", options.seed, "of scene, path and noise")->capture_default_str();
-  app.add_option("--focal", options.focal_px, "focal length in pixels [0.82 x width]");
-  app.add_option("--radial", options.radial_k1, "radial distortion term k1")->capture_default_str();
-  app.add_option("--fps", options.fps, "frames per second")->capture_default_str();
+  app.add_option("--loops", options.loops, "rounds of the path; 0: open path [1; corridor 0]")
+      ->transform(in_range(Range::whole(0, 1000)));
+  app.add_option("--seed", options.seed, "of scene, path and noise")
+      ->transform(in_range(Range::whole(0, kLargestSeed)))
+      ->capture_default_str();
+  app.add_option("--focal", options.focal_px, "focal length in pixels [0.82 x width]")
+      ->transform(in_range(Range::above(0.0, 1e6)));
+  app.add_option("--radial", options.radial_k1, "radial distortion term k1")
+      ->transform(in_range(Range::number(-0.2, 0.2)))
+      ->capture_default_str();
+  app.add_option("--fps", options.fps, "frames per second")
+      ->transform(in_range(Range::above(0.0, 1000.0)))
+      ->capture_default_str();
   app.add_flag("--blur", options.blur, "motion blur of half the frame time");
   app.add_flag("--noise", options.noise, "sensor noise");
   app.add_flag("--exposure", options.exposure_jumps, "jumps of exposure");
@@ -60,8 +74,11 @@ int synth(int argc, const char* const* argv) {
   app.add_flag("--encode", options.encode, "depth and pose written into the pixels, see README");
   app.add_option("--unit-spread", options.unit_spread,
                  "with --encode: spread of the unit of length from inference to inference")
+      ->transform(in_range(Range::number(0.0, 0.999)))
       ->capture_default_str();
-  app.add_option("--threads", options.threads, "0: one per core")->capture_default_str();
+  app.add_option("--threads", options.threads, "0: one per core")
+      ->transform(in_range(Range::whole(0, 256)))
+      ->capture_default_str();
   app.add_flag("--force", options.force, "replace an earlier sequence in OUT");
   app.add_flag("--quiet", quiet, "print nothing but errors");
   if (!unisim::tools::parse(&app, argc, argv)) return unisim::tools::kExitDone;

@@ -154,24 +154,17 @@ class FrameQueue {
 
 void check_options(const SequenceOptions& options) {
   scene_kind(options);
-  require(options.frames >= 1 && options.frames <= 1000000, "--frames must be 1 to 1000000");
   require(options.width >= 32 && options.height >= 32 && options.width <= 8192 &&
               options.height <= 8192,
           "--size must be between 32x32 and 8192x8192");
-  require(options.loops >= -1 && options.loops <= 1000, "--loops must be 0 to 1000");
   require(options.focal_px == 0 ||
               (options.focal_px >= 0.2 * options.width && options.focal_px <= 10.0 * options.width),
           "--focal must be 0.2 to 10 times the width, in pixels");
-  require(options.fps > 0 && options.fps <= 1000, "--fps must be above 0 and at most 1000");
-  require(std::abs(options.radial_k1) <= 0.2, "--radial must be -0.2 to 0.2");
   require(!options.encode || !(options.blur || options.noise || options.exposure_jumps ||
                                options.jpeg || options.radial_k1 != 0),
           "--encode writes numbers, not light: it goes with none of --blur --noise --exposure "
           "--jpg --radial");
-  require(options.unit_spread >= 0 && options.unit_spread < 1,
-          "--unit-spread must be 0 to below 1");
   require(options.encode || options.unit_spread == 0, "--unit-spread goes with --encode");
-  require(options.threads >= 0 && options.threads <= 256, "--threads must be 0 to 256");
 }
 
 Camera make_camera(const SequenceOptions& options) {

@@ -33,6 +33,7 @@ struct SequenceOptions {
   int threads = 0;  ///< 0: one per processor core
 };
 
+/// What options ask of each other; the range of each is that of the command line.
 /// @throws tools::Failure (2) naming the first option that makes no sense
 void check_options(const SequenceOptions& options);
 

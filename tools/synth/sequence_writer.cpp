@@ -46,7 +46,9 @@ SequenceWriter::SequenceWriter(const std::string& folder, bool force, bool jpeg)
     if (fs::exists(folder) && !fs::is_directory(folder)) {
       throw tools::Failure(tools::kExitUsage, folder + " is a file; name a folder");
     }
-    if (fs::exists(folder) && !fs::is_empty(folder)) {
+    fs::create_directories(folder);
+    lock_ = std::make_unique<tools::FolderLock>(folder);
+    if (!fs::is_empty(folder)) {
       if (!force) {
         throw tools::Failure(tools::kExitUsage,
                              folder + " is not empty; choose another folder or add --force");

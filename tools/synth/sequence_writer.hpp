@@ -3,11 +3,12 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <memory>
 #include <opencv2/core.hpp>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "tools/common/folder_lock.hpp"
 #include "tools/synth/camera.hpp"
 
 namespace unisim::synth {
@@ -22,8 +23,8 @@ struct StampedPose {
 
 class SequenceWriter {
  public:
-  /// Make the folder. A folder that holds anything is refused, except that with `force` an earlier
-  /// sequence of this program is removed. @throws tools::Failure
+  /// Make the folder and hold it. A folder that holds anything is refused, except that with `force`
+  /// an earlier sequence of this program is removed. @throws tools::Failure
   SequenceWriter(const std::string& folder, bool force, bool jpeg);
 
   /// First file of a sequence: marks the folder as ours. @param text  of camera.toml
@@ -40,6 +41,7 @@ class SequenceWriter {
   void write_text(const std::string& name, const std::string& text) const;
 
   std::string folder_;
+  std::unique_ptr<tools::FolderLock> lock_;
   bool jpeg_;
 };
 
