@@ -133,7 +133,10 @@ PoseFile read_pose_file(const std::string& path, PoseFormat format) {
     if (file.format == PoseFormat::kTum) good = read_tum(texts, &pose);
     if (file.format == PoseFormat::kEuroc) good = read_euroc(texts, &pose);
     if (file.format == PoseFormat::kKitti) good = read_kitti(texts, static_cast<int64_t>(k), &pose);
-    if (good) file.poses.push_back(pose);
+    if (good) {
+      file.numbered = file.numbered || (file.format == PoseFormat::kKitti && texts.size() == 13);
+      file.poses.push_back(pose);
+    }
   }
   file.skipped = static_cast<int64_t>(lines.size() - file.poses.size());
   if (file.poses.empty()) {

@@ -30,6 +30,7 @@ struct FilePose {
 struct PoseFile {
   PoseFormat format = PoseFormat::kAuto;
   std::vector<FilePose> poses;  ///< in the file's order
+  bool numbered = false;        ///< KITTI: each line has its frame number
   int64_t skipped = 0;  ///< lines left out: not finite, zero quaternion, wrong number of fields
 };
 
