@@ -146,7 +146,8 @@ void print_result(const Run& run, const OutputFolder& folder) {
   tools::print(summary_text(run, folder.written()));
 }
 
-/// Prints what went wrong on the way; the first reason decides the exit code.
+/// Prints what went wrong on the way; the first reason decides the exit code. A score that cannot
+/// be had is none: the map is there.
 int conclude(const Run& run, const OutputFolder& folder, const std::string& recording) {
   int code = exit_code(run.result.outcome, run.options);
   const auto add = [&code](int reason, const std::string& line) {
@@ -159,7 +160,7 @@ int conclude(const Run& run, const OutputFolder& folder, const std::string& reco
   }
   for (const std::string& line : folder.failures()) add(tools::kExitLimit, line);
   add(tools::kExitLimit, recording);
-  add(tools::kExitInput, run.scores.problem);
+  if (!run.scores.problem.empty()) say_problem(run.scores.problem);
   return code;
 }
 
@@ -170,6 +171,7 @@ int replay(const Options& options, const std::atomic<bool>& stop) {
   std::vector<std::string> notes(1);
   const SourcePtr source = open_sequence(options, &notes[0]);
   const eval::Trajectory truth = load_ground_truth(options.ground_truth, source.get());
+  notes.insert(notes.end(), truth.notes.begin(), truth.notes.end());
   Settings settings = options.settings;
   const PredictorPtr predictor = open_predictor(options, &settings, &notes);
 
