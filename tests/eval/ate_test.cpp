@@ -71,11 +71,42 @@ TEST_CASE("a mirrored trajectory is not mirrored back") {
   REQUIRE(ate.error.max > 0.1);
 }
 
-TEST_CASE("positions on a line or in a point cannot be aligned") {
+TEST_CASE("on a straight line scale and position are found, the turn about it is left open") {
+  const Trajectory line = at_positions({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 0, 0}});
+  const Ate same = absolute_trajectory_error(line, line, Alignment::kSim3, 0.02);
+  REQUIRE(same.error.max < 1e-12);
+  REQUIRE(same.T_truth_estimate.roll_open);
+  REQUIRE((same.T_truth_estimate.R - Eigen::Matrix3d::Identity()).norm() < 1e-12);
+  const Ate turned =
+      absolute_trajectory_error(line, moved(line, 0.25, kTurn, {1, -2, 3}), Alignment::kSim3, 0.02);
+  REQUIRE(turned.error.max < 1e-12);
+  REQUIRE(turned.T_truth_estimate.s == Approx(4.0).epsilon(1e-12));
+  REQUIRE(turned.T_truth_estimate.R.determinant() == Approx(1.0));
+  const Ate back = absolute_trajectory_error(
+      line, at_positions({{5, 7, 0}, {4, 7, 0}, {3, 7, 0}, {0, 7, 0}}), Alignment::kSe3, 0.02);
+  REQUIRE(back.error.max < 1e-12);
+}
+
+TEST_CASE("the error to a straight line is the least that any turn gives") {
+  const Trajectory line = at_positions({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}});
+  // Bent by 1 in the middle: the mean height of 1/3 leaves 1/3, 2/3, 1/3 across, nothing along.
+  const Trajectory bent = at_positions({{0, 0, 0}, {2, 1, 0}, {4, 0, 0}});
+  const Ate ate = absolute_trajectory_error(line, bent, Alignment::kSe3, 0.02);
+  REQUIRE(ate.error.rmse == Approx(std::sqrt((1.0 + 4 + 1) / 9 / 3)));
+  REQUIRE(ate.T_truth_estimate.roll_open);
+  REQUIRE_FALSE(absolute_trajectory_error(helix(50), helix(50), Alignment::kSim3, 0.02)
+                    .T_truth_estimate.roll_open);
+}
+
+TEST_CASE("positions that do not move or are fewer than three cannot be aligned") {
   const Trajectory line = at_positions({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
-  const Trajectory point = at_positions({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}});
-  REQUIRE_THROWS_AS(absolute_trajectory_error(line, line, Alignment::kSim3, 0.02), InputError);
-  REQUIRE_THROWS_AS(absolute_trajectory_error(line, point, Alignment::kSe3, 0.02), InputError);
+  const Trajectory point = at_positions({{0.1, 1, 1e6}, {0.1, 1, 1e6}, {0.1, 1, 1e6}});
+  const Trajectory two = at_positions({{0, 0, 0}, {1, 0, 0}});
+  for (const Alignment alignment : {Alignment::kSe3, Alignment::kSim3}) {
+    REQUIRE_THROWS_AS(absolute_trajectory_error(line, point, alignment, 0.02), ScoreError);
+    REQUIRE_THROWS_AS(absolute_trajectory_error(point, line, alignment, 0.02), ScoreError);
+    REQUIRE_THROWS_AS(absolute_trajectory_error(line, two, alignment, 0.02), ScoreError);
+  }
   REQUIRE(absolute_trajectory_error(line, line, Alignment::kNone, 0.02).error.max == 0.0);
 }
 

@@ -3,7 +3,6 @@
 #include "tools/eval/association.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 
@@ -12,10 +11,8 @@ namespace {
 
 constexpr size_t kNone = std::numeric_limits<size_t>::max();
 
-bool before(const Pose& a, const Pose& b) { return a.time_s < b.time_s; }
-
 // Of two equally near times the earlier wins.
-size_t nearest_sorted(const std::vector<Pose>& poses, double time_s, double max_dt_s) {
+size_t nearest(const std::vector<Pose>& poses, double time_s, double max_dt_s) {
   if (time_s < poses.front().time_s - max_dt_s || time_s > poses.back().time_s + max_dt_s)
     return kNone;
   const auto later = [](double time, const Pose& pose) { return time < pose.time_s; };
@@ -28,29 +25,42 @@ size_t nearest_sorted(const std::vector<Pose>& poses, double time_s, double max_
   return to_lower <= max_dt_s && to_lower <= to_upper ? upper - 1 : kNone;
 }
 
-size_t nearest_unsorted(const std::vector<Pose>& poses, double time_s, double max_dt_s) {
-  const auto nearer = [time_s](const Pose& a, const Pose& b) {
-    return std::abs(a.time_s - time_s) < std::abs(b.time_s - time_s);
-  };
-  const auto best = std::min_element(poses.begin(), poses.end(), nearer);
-  return std::abs(best->time_s - time_s) <= max_dt_s ? static_cast<size_t>(best - poses.begin())
-                                                     : kNone;
-}
-
 std::string time_range(const Trajectory& trajectory) {
-  const auto [first, last] =
-      std::minmax_element(trajectory.poses.begin(), trajectory.poses.end(), before);
   char text[120];
   std::snprintf(text, sizeof text,
                 trajectory.has_times() ? " has times %.6f to %.6f s" : " has frames %.0f to %.0f",
-                first->time_s, last->time_s);
+                trajectory.poses.front().time_s, trajectory.poses.back().time_s);
   return trajectory.name + text;
 }
 
-[[noreturn]] void refuse(const Trajectory& ground_truth, const Trajectory& estimate,
-                         const std::string& what, const std::string& advice) {
-  throw InputError(what + ": " + time_range(ground_truth) + ", " + time_range(estimate) + ": " +
-                   advice);
+std::string ranges(const Trajectory& ground_truth, const Trajectory& estimate) {
+  return time_range(ground_truth) + ", " + time_range(estimate);
+}
+
+std::string line_count(const Trajectory& trajectory) {
+  return trajectory.name + " has " + std::to_string(trajectory.lines) + " lines";
+}
+
+// Poses are compared by what identifies them, never by where they stand in their file.
+void check_identity(const Trajectory& ground_truth, const Trajectory& estimate) {
+  if (ground_truth.has_times() != estimate.has_times()) {
+    throw InputError("frame numbers and times do not compare: " + ranges(ground_truth, estimate) +
+                     ": give both files with times or both as KITTI");
+  }
+  const std::string advice = ": give each matrix its frame number as a first column";
+  if (ground_truth.by_line && estimate.by_line && ground_truth.lines != estimate.lines) {
+    throw InputError("which line is which frame is not known: " + line_count(ground_truth) + ", " +
+                     line_count(estimate) + advice + ", or files with a line for every frame");
+  }
+  if (ground_truth.by_line == estimate.by_line) return;
+  const Trajectory& plain = ground_truth.by_line ? ground_truth : estimate;
+  const Trajectory& numbered = ground_truth.by_line ? estimate : ground_truth;
+  const double last = numbered.poses.back().time_s;
+  if (last < static_cast<double>(plain.lines)) return;
+  char frame[40];
+  std::snprintf(frame, sizeof frame, " has frame %.0f", last);
+  throw InputError("which line is which frame is not known: " + numbered.name + frame + ", " +
+                   line_count(plain) + advice);
 }
 
 }  // namespace
@@ -61,28 +71,28 @@ std::vector<IndexPair> associate(const Trajectory& ground_truth, const Trajector
     throw InputError((estimate.poses.empty() ? estimate : ground_truth).name +
                      ": has no poses to compare");
   }
-  if (ground_truth.has_times() != estimate.has_times()) {
-    refuse(ground_truth, estimate, "frame numbers and times do not compare",
-           "give both files with times or both as KITTI");
-  }
+  check_identity(ground_truth, estimate);
   const bool estimate_longer = estimate.poses.size() > ground_truth.poses.size();
   const std::vector<Pose>& few = estimate_longer ? ground_truth.poses : estimate.poses;
   const std::vector<Pose>& many = estimate_longer ? estimate.poses : ground_truth.poses;
   std::vector<IndexPair> pairs;
-  const bool sorted = std::is_sorted(many.begin(), many.end(), before);
   for (size_t k = 0; k < few.size(); ++k) {
-    const double time_s = few[k].time_s;
-    const size_t match =
-        sorted ? nearest_sorted(many, time_s, max_dt_s) : nearest_unsorted(many, time_s, max_dt_s);
+    const size_t match = nearest(many, few[k].time_s, max_dt_s);
     if (match == kNone) continue;
     pairs.push_back(estimate_longer ? IndexPair{k, match} : IndexPair{match, k});
   }
   if (pairs.empty()) {
     char what[80];
     std::snprintf(what, sizeof what, "no poses within %g s of each other", max_dt_s);
-    refuse(ground_truth, estimate, what, "give files with the same clock or a larger --max-dt");
+    throw ScoreError(ScoreError::Kind::kNoPairs,
+                     std::string(what) + ": " + ranges(ground_truth, estimate));
   }
   return pairs;
+}
+
+const char* association_name(const Trajectory& ground_truth, const Trajectory& estimate) {
+  if (ground_truth.has_times()) return "time";
+  return ground_truth.by_line && estimate.by_line ? "line" : "frame number";
 }
 
 }  // namespace unisim::eval

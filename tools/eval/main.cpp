@@ -16,6 +16,11 @@
 namespace unisim::eval {
 namespace {
 
+constexpr const char* kName = "unisim-eval";
+constexpr const char* kRollOpen =
+    "the positions lie on a straight line: the turn about it is not known, the error does not "
+    "depend on it";
+
 struct Arguments {
   std::string ground_truth, estimate, plot;
   std::vector<std::string> trajectories;
@@ -26,16 +31,54 @@ struct Arguments {
   bool json = false;
 };
 
-void print(const Arguments& arguments, const Json& result) {
+void print(const Arguments& arguments, Json result, const Json& notes) {
+  if (!notes.empty()) result["notes"] = notes;
   tools::print(arguments.json ? tools::json_text(result, 1) + "\n" : text_of(result));
 }
 
+// Both trajectories, and what they leave to be said.
+struct Pair {
+  Trajectory truth, estimate;
+  Json notes = Json::array();
+};
+
+void note(const std::string& line, Json* notes) {
+  tools::complain(kName, line);
+  notes->push_back(line);
+}
+
+Pair read_pair(const std::string& truth, const std::string& estimate) {
+  Pair pair = {read_trajectory(truth), read_trajectory(estimate)};
+  for (const std::string& line : pair.truth.notes) note(line, &pair.notes);
+  if (estimate == truth) return pair;
+  for (const std::string& line : pair.estimate.notes) note(line, &pair.notes);
+  return pair;
+}
+
+// What may help, in the options of this program.
+const char* advice(ScoreError::Kind kind) {
+  switch (kind) {
+    case ScoreError::Kind::kNoPairs:
+      return "give files with the same clock or a larger --max-dt";
+    case ScoreError::Kind::kFewPairs:
+    case ScoreError::Kind::kStill:
+      return "use --align none or a longer trajectory";
+    case ScoreError::Kind::kNoStep:
+      return "give a smaller --delta";
+    case ScoreError::Kind::kNoTimes:
+      return "use --unit frames";
+  }
+  return "";
+}
+
 int run_ate(const Arguments& arguments) {
-  const Trajectory truth = read_trajectory(arguments.ground_truth);
-  const Trajectory estimate = read_trajectory(arguments.estimate);
+  Pair pair = read_pair(arguments.ground_truth, arguments.estimate);
+  const auto& [truth, estimate, notes] = pair;
   const Ate ate =
       absolute_trajectory_error(truth, estimate, arguments.alignment, arguments.max_dt_s);
-  print(arguments, ate_json({truth, estimate, arguments.alignment, arguments.max_dt_s}, ate));
+  if (ate.T_truth_estimate.roll_open) note(kRollOpen, &pair.notes);
+  print(arguments, ate_json({truth, estimate, arguments.alignment, arguments.max_dt_s}, ate),
+        notes);
   if (!arguments.plot.empty() && !write_top_view(arguments.plot, truth, ate)) {
     throw tools::Failure(
         tools::kExitLimit,
@@ -45,29 +88,36 @@ int run_ate(const Arguments& arguments) {
 }
 
 int run_rpe(const Arguments& arguments) {
-  const Trajectory truth = read_trajectory(arguments.ground_truth);
-  const Trajectory estimate = read_trajectory(arguments.estimate);
+  const auto [truth, estimate, notes] = read_pair(arguments.ground_truth, arguments.estimate);
   const Rpe rpe =
       relative_pose_error(truth, estimate, arguments.alignment, arguments.max_dt_s, arguments.step);
   print(arguments,
-        rpe_json({truth, estimate, arguments.alignment, arguments.max_dt_s}, arguments.step, rpe));
+        rpe_json({truth, estimate, arguments.alignment, arguments.max_dt_s}, arguments.step, rpe),
+        notes);
   return tools::kExitDone;
 }
 
 int run_cloud(const Arguments& arguments) {
   Similarity T_truth_estimate;
+  Json notes = Json::array();
   if (!arguments.trajectories.empty()) {
-    const Trajectory truth = read_trajectory(arguments.trajectories[0]);
-    const Trajectory estimate = read_trajectory(arguments.trajectories[1]);
+    const Pair pair = read_pair(arguments.trajectories[0], arguments.trajectories[1]);
+    notes = pair.notes;
     T_truth_estimate =
-        absolute_trajectory_error(truth, estimate, Alignment::kSim3, arguments.max_dt_s)
+        absolute_trajectory_error(pair.truth, pair.estimate, Alignment::kSim3, arguments.max_dt_s)
             .T_truth_estimate;
+    if (T_truth_estimate.roll_open) {
+      throw InputError(arguments.trajectories[1] +
+                       ": on a straight line: the turn of the cloud about it is not known; give "
+                       "trajectories with a bend");
+    }
   }
   const Cloud truth = read_ply(arguments.ground_truth);
   const Cloud estimate = read_ply(arguments.estimate);
   const CloudMetrics metrics =
       compare_clouds(truth, estimate, T_truth_estimate, arguments.max_distance);
-  print(arguments, cloud_json(truth, estimate, T_truth_estimate, arguments.max_distance, metrics));
+  print(arguments, cloud_json(truth, estimate, T_truth_estimate, arguments.max_distance, metrics),
+        notes);
   return tools::kExitDone;
 }
 
@@ -163,6 +213,9 @@ int run(int argc, const char* const* argv) {
   try {
     if (app.got_subcommand("ate")) return run_ate(arguments);
     return app.got_subcommand("rpe") ? run_rpe(arguments) : run_cloud(arguments);
+  } catch (const ScoreError& error) {
+    throw tools::Failure(tools::kExitInput,
+                         std::string(error.what()) + ": " + advice(error.kind()));
   } catch (const InputError& error) {
     throw tools::Failure(tools::kExitInput, error.what());
   } catch (const std::invalid_argument& error) {
@@ -174,5 +227,6 @@ int run(int argc, const char* const* argv) {
 }  // namespace unisim::eval
 
 int main(int argc, char** argv) {
-  return unisim::tools::run_program("unisim-eval", [&] { return unisim::eval::run(argc, argv); });
+  return unisim::tools::run_program(unisim::eval::kName,
+                                    [&] { return unisim::eval::run(argc, argv); });
 }

@@ -35,6 +35,7 @@ Json protocol_json(const Protocol& protocol, size_t associated) {
           {"estimate", side_json(protocol.estimate)},
           {"alignment", alignment_name(protocol.alignment)},
           {"max_dt_s", protocol.max_dt_s},
+          {"associated_by", association_name(protocol.ground_truth, protocol.estimate)},
           {"associated", associated}};
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
@@ -86,9 +87,9 @@ Steps find_steps(const std::vector<Pose>& poses, const RpeStep& step) {
 
 void check(const RpeStep& step) {
   if (!(step.delta > 0) || !std::isfinite(step.delta))
-    throw std::invalid_argument("--delta must be above 0");
+    throw std::invalid_argument("a step must be above 0");
   if (step.unit == StepUnit::kFrames && step.delta != std::floor(step.delta)) {
-    throw std::invalid_argument("--delta must be a whole number for --unit frames");
+    throw std::invalid_argument("a step in frames must be a whole number");
   }
 }
 
@@ -102,7 +103,7 @@ Rpe relative_pose_error(const Trajectory& ground_truth, const Trajectory& estima
                         Alignment alignment, double max_dt_s, const RpeStep& step) {
   check(step);
   if (step.unit == StepUnit::kSeconds && !estimate.has_times()) {
-    throw InputError(estimate.name + ": has frame numbers, not times: use --unit frames");
+    throw ScoreError(ScoreError::Kind::kNoTimes, estimate.name + ": has frame numbers, not times");
   }
   const std::vector<IndexPair> pairs = associate(ground_truth, estimate, max_dt_s);
   std::vector<Pose> truth, aligned;
@@ -127,8 +128,10 @@ Rpe relative_pose_error(const Trajectory& ground_truth, const Trajectory& estima
     rpe.time_s.push_back(aligned[j].time_s);
   }
   if (rpe.time_s.empty()) {
-    throw InputError("no step of --delta in " + std::to_string(pairs.size()) +
-                     " associated poses: give a smaller --delta");
+    char what[80];
+    std::snprintf(what, sizeof what, "no step of %g %s in %zu associated poses", step.delta,
+                  step_unit_name(step.unit), pairs.size());
+    throw ScoreError(ScoreError::Kind::kNoStep, what);
   }
   rpe.translation = summarise(rpe.translation_error);
   rpe.rotation_deg = summarise(rpe.rotation_error_deg);

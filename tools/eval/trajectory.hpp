@@ -22,19 +22,23 @@ struct Pose {
 };
 
 struct Trajectory {
-  std::string name;    ///< file, for messages and protocols
-  std::string format;  ///< "tum", "kitti", "euroc"
-  std::vector<Pose> poses;
-  int64_t skipped = 0;  ///< lines of the file that are not a pose
+  std::string name;         ///< file, for messages and protocols
+  std::string format;       ///< "tum", "kitti", "euroc"
+  std::vector<Pose> poses;  ///< by growing time, each time once
+  int64_t skipped = 0;      ///< lines of the file that are not a pose
+  int64_t lines = 0;        ///< of the file, those skipped too
+  bool by_line = false;     ///< KITTI without frame numbers: the time is the number of the line
+  std::vector<std::string> notes = {};  ///< what is odd about it, one line each with its name
 
   bool has_times() const { return format != "kitti"; }
 };
 
 /// Reads TUM, KITTI (3x4, with or without frame number) or EuRoC csv; KITTI poses get the frame
-/// number as their time. @throws InputError
+/// number as their time. Poses are sorted; of those with one time the first of the file counts.
+/// @throws InputError
 Trajectory read_trajectory(const std::string& path);
 
-/// The same from memory.
+/// The same from memory, sorted in the same way.
 Trajectory make_trajectory(const std::string& name, const unisim_stamped_pose* poses,
                            int64_t count);
 

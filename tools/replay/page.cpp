@@ -88,8 +88,9 @@ void add_figures(const Run& run, report::ReportData* page) {
   const Scores& scores = run.scores;
   const auto millimetres = [](double metres) { return text("%.1f mm", 1000.0 * metres); };
   if (scores.ate) {
-    page->figures.push_back({"ATE, final poses", millimetres(scores.ate->error.rmse),
-                             text("RMSE of %zu keyframes", scores.ate->pairs.size())});
+    page->figures.push_back(
+        {"ATE, final poses", millimetres(scores.ate->error.rmse),
+         text("RMSE of %zu %s", scores.ate->pairs.size(), scores.poses.c_str())});
   }
   if (scores.live) {
     page->figures.push_back(
@@ -108,6 +109,18 @@ void add_figures(const Run& run, report::ReportData* page) {
                            text("%.1f s in all", run.result.wall_s)});
 }
 
+/// "2: 60 keyframes (ATE 4.1 mm), 12 keyframes"
+std::string segments_text(const Scores& scores) {
+  std::string line = std::to_string(scores.segments.size());
+  if (scores.segments.size() < 2) return line;
+  for (const SegmentScore& segment : scores.segments) {
+    line += (&segment == &scores.segments.front() ? ": " : ", ") +
+            text("%d keyframes", segment.keyframes);
+    if (segment.ate_rmse_m) line += text(" (ATE %.1f mm)", 1000.0 * *segment.ate_rmse_m);
+  }
+  return line;
+}
+
 void add_protocol(const Run& run, report::ReportData* page) {
   const Options& o = run.options;
   const unisim_session_info& info = run.data.session;
@@ -120,7 +133,7 @@ void add_protocol(const Run& run, report::ReportData* page) {
       {"keyframes", text("%d, ", info.keyframes) + keyframe_choice(o)},
       {"submaps", text("%d of %d keyframes, overlap %d", info.submaps,
                        o.settings.session.window_size, o.settings.session.window_overlap)},
-      {"segments", std::to_string(info.segments)},
+      {"segments", segments_text(run.scores)},
       {"predictor", o.predictor},
       {"loop closing", "not built"},
       {"intrinsics", o.settings.geometric.focal_px > 0.0 ? "given" : "estimated"},

@@ -160,7 +160,8 @@ void print_result(const Run& run, const OutputFolder& folder) {
   tools::print(summary_text(run, folder.written()));
 }
 
-/// Prints what went wrong on the way; the first reason decides the exit code.
+/// Prints what went wrong on the way; the first reason decides the exit code. A score that cannot
+/// be had is none: the map is there.
 int conclude(const Run& run, const OutputFolder& folder, const std::string& recording) {
   int code = exit_code(run.result.outcome, run.options);
   const auto add = [&code](int reason, const std::string& line) {
@@ -173,7 +174,7 @@ int conclude(const Run& run, const OutputFolder& folder, const std::string& reco
   }
   for (const std::string& line : folder.failures()) add(tools::kExitLimit, line);
   add(tools::kExitLimit, recording);
-  add(tools::kExitInput, run.scores.problem);
+  if (!run.scores.problem.empty()) say_problem(run.scores.problem);
   return code;
 }
 
@@ -184,15 +185,18 @@ int replay(const Options& options, const std::atomic<bool>& stop) {
   std::vector<std::string> notes;
   const SourcePtr source = open_sequence(options, &notes);
   const eval::Trajectory truth = load_ground_truth(options.ground_truth, source.get());
+  notes.insert(notes.end(), truth.notes.begin(), truth.notes.end());
   Settings settings = options.settings;
   const PredictorPtr predictor = open_predictor(options, &settings, &notes);
 
   unisim_config config = settings.session;
-  if (config.window_submaps == 0 && !options.settings.max_keyframes_given) {
-    config.max_keyframes = std::max(
-        pipeline::keyframe_capacity(source->frame_count(source.get()),
-                                    options.settings.pipeline.keyframes, kUnknownLengthKeyframes),
-        least_keyframes(config));
+  if (!options.settings.max_keyframes_given) {
+    const int32_t wanted = config.window_submaps > 0
+                               ? config.max_keyframes
+                               : pipeline::keyframe_capacity(source->frame_count(source.get()),
+                                                             options.settings.pipeline.keyframes,
+                                                             kUnknownLengthKeyframes);
+    config.max_keyframes = std::max(wanted, least_keyframes(config));
   }
   ProgressLine progress(progress_style(options));
   for (const std::string& note : notes) {

@@ -39,11 +39,24 @@ Json protocol_json(const Run& run) {
           {"ground_truth", run.truth.name},
           {"alignment", "sim3"},
           {"associated", run.scores.ate ? run.scores.ate->pairs.size() : 0},
-          {"poses", "keyframes"},
+          {"poses", run.scores.poses},
+          {"poses_live", run.scores.live_poses},
           {"window", o.settings.session.window_size},
           {"overlap", o.settings.session.window_overlap},
           {"loops", "not built"},
           {"realtime", o.settings.pipeline.realtime}};
+}
+
+Json segments_json(const Scores& scores) {
+  Json list = Json::array();
+  for (const SegmentScore& segment : scores.segments) {
+    list.push_back(
+        {{"first", segment.first},
+         {"last", segment.last},
+         {"keyframes", segment.keyframes},
+         {"ate_rmse_m", segment.ate_rmse_m ? Json(*segment.ate_rmse_m) : Json(nullptr)}});
+  }
+  return list;
 }
 
 Json memory_json(const Run& run) {
@@ -93,11 +106,18 @@ std::string text(const char* format, Values... values) {
 std::string score_line(const Run& run) {
   const Scores& scores = run.scores;
   if (!scores.ate) return scores.problem.empty() ? "no ground truth, no score\n" : "no score\n";
-  std::string line = text("ATE %.4f m RMSE (Sim(3), %zu keyframes)", scores.ate->error.rmse,
-                          scores.ate->pairs.size());
+  std::string line = text("ATE %.4f m RMSE (Sim(3), %zu %s)", scores.ate->error.rmse,
+                          scores.ate->pairs.size(), scores.poses.c_str());
   if (scores.live) line += text(", live poses %.4f m", scores.live->error.rmse);
   if (scores.rpe) line += text(", RPE %.4f m", scores.rpe->translation.rmse);
-  return line + text(", 1 unit = %.4g m\n", scores.ate->T_truth_estimate.s);
+  line += text(", 1 unit = %.4g m\n", scores.ate->T_truth_estimate.s);
+  if (scores.segments.size() < 2) return line;
+  const SegmentScore& longest = *std::max_element(
+      scores.segments.begin(), scores.segments.end(),
+      [](const SegmentScore& a, const SegmentScore& b) { return a.keyframes < b.keyframes; });
+  line += text("longest segment: %d keyframes", longest.keyframes);
+  if (longest.ate_rmse_m) line += text(", aligned by itself ATE %.4f m", *longest.ate_rmse_m);
+  return line + "\n";
 }
 
 }  // namespace
@@ -155,8 +175,10 @@ Json summary_json(const Run& run) {
           {"ate_live_rmse_m", rmse_of(scores.live)},
           {"rpe_trans_rmse_m", scores.rpe ? Json(scores.rpe->translation.rmse) : Json(nullptr)},
           {"scale", scores.ate ? Json(scores.ate->T_truth_estimate.s) : Json(nullptr)},
+          {"score_problem", run.scores.problem.empty() ? Json(nullptr) : Json(run.scores.problem)},
           {"coverage", coverage(run.data)},
           {"lost_events", info.lost_events},
+          {"segment_scores", segments_json(run.scores)},
           {"segments", info.segments},
           {"pairs_refused", info.pairs_refused},
           {"submaps_refused", info.submaps_refused},
