@@ -27,6 +27,7 @@ Session::Session(const SessionConfig& config, const SessionCapacity& capacity, A
       submaps_(part(arena, "submaps"), capacity.submaps, config.first_submap_id),
       tracking_(config.lost_after),
       depth_(part(arena, "depth"), capacity.depth, config.confidence_drop),
+      sampled_(arena, config.grid),
       graph_(part(arena, "graph"), capacity.graph),
       gauge_(arena, capacity.graph.nodes),
       solver_(part(arena, "solver"), capacity.solver),

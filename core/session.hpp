@@ -291,7 +291,6 @@ class Session {
   void judge_loops();
   void judge(LoopHealth* health, int32_t loop, double norm);
   double loop_norm(const Submap& loop) const;
-  void suspend(LoopHealth* health, int32_t loop, bool suspended);
   void suspend_edge(int32_t edge, bool suspended);
   void suspend_edges(const Submap& loop, bool suspended);
   void place_again(Submap* loop);
@@ -299,7 +298,7 @@ class Session {
   Sim3 view_measurement(const SubmapView& view) const;
   Sim3 shared_measurement(const SharedKeyframe& shared) const;
   double quality_multiplier(double center_sigma) const;
-  EdgeWeight edge_weight(FactorKind kind, double multiplier, bool is_loop) const;
+  EdgeWeight edge_weight(FactorKind kind, double multiplier, EdgeOrigin origin) const;
   bool has_ids() const { return keyframes_.size() <= kLastId && submaps_.next_id() <= kLastId; }
   int32_t settled_for_windows() const;
   void describe_changes(OptimizeReport* report);
@@ -318,6 +317,7 @@ class Session {
   SubmapTable submaps_;
   TrackingState tracking_;
   DepthBook depth_;
+  SampledDepth sampled_;  // the map being compared or kept
   Graph graph_;
   Gauge gauge_;
   LevenbergMarquardt solver_;

@@ -29,6 +29,17 @@ constexpr bool is_pose_factor(FactorKind kind) {
   return kind != FactorKind::kScaleAnchor && kind != FactorKind::kScale;
 }
 
+/// The prediction that an edge comes from, or those that were condensed into it.
+enum class EdgeOrigin : uint8_t { kPair, kWindow, kLoop };
+
+/// What every edge is given besides its measurement.
+struct EdgeWeight {
+  double information = 1.0;  ///< > 0, finite
+  double multiplier = 1.0;   ///< >= 0, finite
+  RobustKernel kernel;
+  EdgeOrigin origin = EdgeOrigin::kWindow;
+};
+
 /// One factor between nodes a and b. Its cost is rho(u), u = sqrt(information * multiplier) |e|;
 /// of chain and rigid factors u = sqrt(information * multiplier * e' Lambda e).
 struct Edge {
@@ -42,9 +53,11 @@ struct Edge {
   double multiplier = 1.0;   ///< weight of this edge for its quality, >= 0
   RobustKernel kernel;
   FactorKind kind = FactorKind::kTwoView;
+  EdgeOrigin origin = EdgeOrigin::kWindow;
   bool alive = false;
   bool suspended = false;  ///< kept with its place in the system, contributes nothing
 
+  EdgeWeight given_weight() const { return {information, multiplier, kernel, origin}; }
   double weight() const { return information * multiplier; }
   bool active() const { return alive && !suspended; }
 };

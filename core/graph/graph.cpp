@@ -46,7 +46,7 @@ void give_back(FixedVector<int32_t>* free_slots, int32_t slot) {
 Graph::Graph(Arena& arena, const GraphCapacity& capacity)
     : nodes_(arena, capacity.nodes),
       free_nodes_(arena, capacity.nodes),
-      changes_(arena.take<uint8_t>(capacity.nodes)),
+      stamps_(arena.take<NodeStamps>(capacity.nodes)),
       edges_(arena, capacity.edges),
       free_edges_(arena, capacity.edges),
       measurements_(arena, capacity.measurements),
@@ -55,7 +55,7 @@ Graph::Graph(Arena& arena, const GraphCapacity& capacity)
       free_informations_(arena, capacity.chains) {}
 
 void Graph::clear() {
-  changes_.fill(kNodeMoved | kNodeRelinked);
+  stamps_.fill({next_revision(), next_revision(), 0});
   nodes_.clear();
   free_nodes_.clear();
   edges_.clear();
@@ -71,12 +71,13 @@ void Graph::clear() {
 }
 
 void Graph::note_relinked(const Edge& edge) {
-  changes_[edge.a] |= kNodeRelinked;
-  changes_[edge.b] |= kNodeRelinked;
+  stamps_[edge.a].relinked = next_revision();
+  stamps_[edge.b].relinked = next_revision();
 }
 
 void Graph::structure_changed() {
   ++structure_revision_;
+  ++activity_revision_;
   ++revision_;
 }
 
@@ -90,7 +91,7 @@ Status Graph::add_node(NodeKind kind, const Sim3& T_world_node, int32_t* id) {
   *id = take_slot(&nodes_, &free_nodes_);
   nodes_[*id] = Node{T_world_node, next_serial_++, kind, false, true};
   ++node_count_;
-  changes_[*id] = kNodeMoved | kNodeRelinked;
+  stamps_[*id] = {next_revision(), next_revision(), 0};
   structure_changed();
   return Status::kOk;
 }
@@ -101,7 +102,7 @@ Status Graph::remove_node(int32_t id) {
     if (edges_[i].alive && (edges_[i].a == id || edges_[i].b == id)) release_edge(i);
   }
   nodes_[id].alive = false;
-  changes_[id] |= kNodeRelinked;
+  stamps_[id].relinked = next_revision();
   give_back(&free_nodes_, id);
   --node_count_;
   structure_changed();
@@ -112,7 +113,7 @@ Status Graph::set_fixed(int32_t id, bool fixed) {
   if (!has_node(id)) return Status::kInvalidArgument;
   if (nodes_[id].fixed == fixed) return Status::kOk;
   nodes_[id].fixed = fixed;
-  changes_[id] |= kNodeHeld | kNodeRelinked;
+  stamps_[id].held = stamps_[id].relinked = next_revision();
   structure_changed();
   return Status::kOk;
 }
@@ -120,7 +121,7 @@ Status Graph::set_fixed(int32_t id, bool fixed) {
 Status Graph::set_kind(int32_t id, NodeKind kind) {
   if (!has_node(id)) return Status::kInvalidArgument;
   nodes_[id].kind = kind;
-  changes_[id] |= kNodeHeld | kNodeRelinked;
+  stamps_[id].held = stamps_[id].relinked = next_revision();
   structure_changed();
   return Status::kOk;
 }
@@ -128,7 +129,7 @@ Status Graph::set_kind(int32_t id, NodeKind kind) {
 Status Graph::set_pose(int32_t id, const Sim3& T_world_node) {
   if (!has_node(id) || !T_world_node.valid()) return Status::kInvalidArgument;
   nodes_[id].T_world_node = T_world_node;
-  changes_[id] |= kNodeMoved;
+  stamps_[id].moved = next_revision();
   ++revision_;
   return Status::kOk;
 }
@@ -168,6 +169,7 @@ Status Graph::add_pose_edge(FactorKind kind, int32_t a, int32_t b, const Sim3& P
   edge.information = weight.information;
   edge.multiplier = weight.multiplier;
   edge.kernel = weight.kernel;
+  edge.origin = weight.origin;
   edge.P = take_measurement(P);
   edge.Q = Q == nullptr ? -1 : take_measurement(*Q);
   return add_edge(edge, id);
@@ -186,6 +188,7 @@ Status Graph::add_scale_edge(FactorKind kind, int32_t a, int32_t b, double log_r
   edge.information = weight.information;
   edge.multiplier = weight.multiplier;
   edge.kernel = weight.kernel;
+  edge.origin = weight.origin;
   edge.log_ratio = log_ratio;
   return add_edge(edge, id);
 }
@@ -309,6 +312,7 @@ Status Graph::set_multiplier(int32_t id, double multiplier) {
 
 Status Graph::set_suspended(int32_t id, bool suspended) {
   if (!has_edge(id)) return Status::kInvalidArgument;
+  if (edges_[id].suspended != suspended) ++activity_revision_;
   edges_[id].suspended = suspended;
   note_relinked(edges_[id]);
   ++revision_;

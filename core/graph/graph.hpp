@@ -29,13 +29,6 @@ enum NodeChange : uint8_t {
   kNodeHeld = 4       ///< whether it is held, or its kind: its edges may add to other columns
 };
 
-/// What every edge is given besides its measurement.
-struct EdgeWeight {
-  double information = 1.0;  ///< > 0, finite
-  double multiplier = 1.0;   ///< >= 0, finite
-  RobustKernel kernel;
-};
-
 /// Nodes (poses) and edges (factors), addressed by ids that stay until the item is removed; ids of
 /// removed items are used again. Calls that fail leave the graph as it was.
 class Graph {
@@ -117,15 +110,30 @@ class Graph {
 
   /// Grows when nodes, edges or fixed flags change: the structure of the system is another one.
   uint64_t structure_revision() const { return structure_revision_; }
+  /// Grows with that, and when edges are suspended or come back.
+  uint64_t activity_revision() const { return activity_revision_; }
   /// Grows with every change, poses and measurements included.
   uint64_t revision() const { return revision_; }
 
-  /// What has changed at a node since forget_changes(): bits of NodeChange. Removed nodes count.
-  uint8_t changes(int32_t id) const { return changes_[id]; }
-  /// For the one solver that follows the graph; changes nothing else.
-  void forget_changes() const { changes_.fill(0); }
+  /// What has changed at a node since the graph had this revision: bits of NodeChange. Removed
+  /// nodes count.
+  uint8_t changes_since(int32_t id, uint64_t revision) const {
+    const NodeStamps& stamps = stamps_[id];
+    return static_cast<uint8_t>((stamps.moved > revision ? kNodeMoved : 0) |
+                                (stamps.relinked > revision ? kNodeRelinked : 0) |
+                                (stamps.held > revision ? kNodeHeld : 0));
+  }
 
  private:
+  /// Revisions in which things happened to a node.
+  struct NodeStamps {
+    uint64_t moved = 0;
+    uint64_t relinked = 0;
+    uint64_t held = 0;
+  };
+
+  /// Revision that the change being made will have.
+  uint64_t next_revision() const { return revision_ + 1; }
   void note_relinked(const Edge& edge);
   Status add_edge(const Edge& edge, int32_t* id);
   Status add_pose_edge(FactorKind kind, int32_t a, int32_t b, const Sim3& P, const Sim3* Q,
@@ -141,7 +149,7 @@ class Graph {
 
   FixedVector<Node> nodes_;
   FixedVector<int32_t> free_nodes_;
-  Span<uint8_t> changes_;
+  Span<NodeStamps> stamps_;
   FixedVector<Edge> edges_;
   FixedVector<int32_t> free_edges_;
   FixedVector<Sim3> measurements_;
@@ -152,6 +160,7 @@ class Graph {
   int32_t node_count_ = 0;
   int32_t edge_count_ = 0;
   uint64_t structure_revision_ = 1;
+  uint64_t activity_revision_ = 1;
   uint64_t revision_ = 1;
 };
 

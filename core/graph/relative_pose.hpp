@@ -6,6 +6,10 @@
 
 namespace unisim {
 
+// Residuals and Jacobians here and in the factors' own files are the formulas as written, for tests
+// and single edges. The solver linearises with relative_pose_pack.hpp, four edges at a time;
+// tests/unit/pose_quad_test.cpp holds the two against each other.
+
 /// e = log((A P)^-1 (B Q)), 7 rows. A, B: node poses; P, Q: measured constants.
 Vec7 relative_pose_residual(const Sim3& A, const Sim3& B, const Sim3& P, const Sim3& Q);
 

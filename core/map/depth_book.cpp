@@ -21,15 +21,14 @@ DepthBook::DepthBook(Arena& arena, const DepthBookSize& size, double confidence_
       archive_(arena, size.keyframes),
       grid_(size.grid),
       confidence_drop_(confidence_drop),
-      map_(arena.take<float>(size.grid.cells())),
-      coarse_map_(arena.take<float>(kCoarse.cells())),
       coarse_kept_(arena.take<float>(kCoarse.cells())),
       scratch_(arena.take<float>(
           log_median_ratio_scratch(std::max(size.grid.cells(), kCoarse.cells())))) {}
 
-bool DepthBook::load(const DepthMap& map) {
-  sample_depth(map, kCoarse, confidence_drop_, coarse_map_, scratch_);
-  return sample_depth(map, grid_, confidence_drop_, map_, scratch_) >= kFewestSamples;
+void DepthBook::sample(const DepthMap& map, SampledDepth* sampled) {
+  sample_depth(map, kCoarse, confidence_drop_, sampled->coarse_, scratch_);
+  const int32_t depths = sample_depth(map, grid_, confidence_drop_, sampled->fine_, scratch_);
+  sampled->usable_ = depths >= kFewestSamples;
 }
 
 bool DepthBook::compare(Span<const float> map, Span<const float> kept, LogMedianRatio* ratio) {
@@ -37,27 +36,27 @@ bool DepthBook::compare(Span<const float> map, Span<const float> kept, LogMedian
   return is_ok(status) && ratio->count >= kFewestSamples;
 }
 
-bool DepthBook::over_two_view(int32_t keyframe, LogMedianRatio* ratio) {
+bool DepthBook::over_two_view(const SampledDepth& map, int32_t keyframe, LogMedianRatio* ratio) {
   const Span<const float> kept = two_view_.find(keyframe);
-  if (!kept.empty()) return compare(map_, kept, ratio);
+  if (!kept.empty()) return compare(map.fine_, kept, ratio);
   archive_.get(keyframe, coarse_kept_);
-  return compare(coarse_map_, coarse_kept_, ratio);
+  return compare(map.coarse_, coarse_kept_, ratio);
 }
 
-bool DepthBook::over_submap(int32_t keyframe, LogMedianRatio* ratio) {
+bool DepthBook::over_submap(const SampledDepth& map, int32_t keyframe, LogMedianRatio* ratio) {
   const Span<const float> kept = submaps_.find(keyframe);
-  return !kept.empty() && compare(map_, kept, ratio);
+  return !kept.empty() && compare(map.fine_, kept, ratio);
 }
 
-void DepthBook::keep_two_view(int32_t keyframe) {
+void DepthBook::keep_two_view(const SampledDepth& map, int32_t keyframe) {
   const Span<float> place = two_view_.put({keyframe, -1, -1});
-  if (!place.empty()) copy(map_, place);
-  archive_.put(keyframe, coarse_map_);
+  if (!place.empty()) copy(map.fine_, place);
+  archive_.put(keyframe, map.coarse_);
 }
 
-void DepthBook::keep_submap(const DepthStore::Source& source) {
+void DepthBook::keep_submap(const SampledDepth& map, const DepthStore::Source& source) {
   const Span<float> place = submaps_.put(source);
-  if (!place.empty()) copy(map_, place);
+  if (!place.empty()) copy(map.fine_, place);
 }
 
 }  // namespace unisim

@@ -19,9 +19,27 @@ struct DepthBookSize {
   GridSize grid;
 };
 
+/// A host's map on the two grids of a DepthBook.
+class SampledDepth {
+ public:
+  SampledDepth() = default;
+  SampledDepth(Arena& arena, GridSize grid)
+      : fine_(arena.take<float>(grid.cells())),
+        coarse_(arena.take<float>(DepthArchive::kGrid.cells())) {}
+
+  /// Has it enough depths for any use?
+  bool usable() const { return usable_; }
+
+ private:
+  friend class DepthBook;
+  Span<float> fine_;
+  Span<float> coarse_;
+  bool usable_ = false;
+};
+
 /// Depth of keyframes by unit: one unit per two-view chain link, one per submap.
 ///
-/// load() a host's map, then compare it or keep it. Comparing falls back from the grid to the
+/// sample() a host's map, then compare it or keep it. Comparing falls back from the grid to the
 /// coarse archive for keyframes whose grid has given way; below kFewestSamples common samples a
 /// ratio is unknown.
 class DepthBook {
@@ -31,23 +49,22 @@ class DepthBook {
   DepthBook() = default;
   DepthBook(Arena& arena, const DepthBookSize& size, double confidence_drop);
 
-  /// Sample a host's map; it is "the map" of the following calls. false: too few depths for any
-  /// use.
-  bool load(const DepthMap& map);
+  /// @param[out] sampled made on the same grid as the book
+  void sample(const DepthMap& map, SampledDepth* sampled);
 
   /// log median(map / two-view depth of the keyframe). false: unknown.
-  bool over_two_view(int32_t keyframe, LogMedianRatio* ratio);
+  bool over_two_view(const SampledDepth& map, int32_t keyframe, LogMedianRatio* ratio);
   /// log median(map / depth of the keyframe in the submap last kept). false: unknown.
-  bool over_submap(int32_t keyframe, LogMedianRatio* ratio);
+  bool over_submap(const SampledDepth& map, int32_t keyframe, LogMedianRatio* ratio);
   /// Which submap view over_submap() would compare with.
   DepthStore::Source submap_source(int32_t keyframe) const { return submaps_.source_of(keyframe); }
 
   /// A keyframe has arrived: what was archived in its place is another's.
   void begin_keyframe(int32_t keyframe) { archive_.clear(keyframe); }
   /// The map is the keyframe's two-view depth from now on.
-  void keep_two_view(int32_t keyframe);
+  void keep_two_view(const SampledDepth& map, int32_t keyframe);
   /// The map is the depth of a submap's view.
-  void keep_submap(const DepthStore::Source& source);
+  void keep_submap(const SampledDepth& map, const DepthStore::Source& source);
   /// A submap's view has been measured anew: its depth is `factor` times the old.
   void rescale_submap(int32_t submap, int32_t view, double factor) {
     submaps_.rescale(submap, view, factor);
@@ -61,8 +78,6 @@ class DepthBook {
   DepthArchive archive_;
   GridSize grid_;
   double confidence_drop_ = 0.0;
-  Span<float> map_;          // the loaded map on the grid
-  Span<float> coarse_map_;   // and on the archive's grid
   Span<float> coarse_kept_;  // a keyframe out of the archive
   Span<float> scratch_;
 };

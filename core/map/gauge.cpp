@@ -30,7 +30,7 @@ bool Gauge::comes_first(const Graph& graph, int32_t a, int32_t b) {
 }
 
 Status Gauge::apply(Graph* graph) {
-  if (graph->structure_revision() == structure_revision_) return Status::kOk;
+  if (graph->activity_revision() == activity_revision_) return Status::kOk;
   for (int32_t node = 0; node < graph->node_end(); ++node) parent_[node] = node;
   for (int32_t id = 0; id < graph->edge_end(); ++id) {
     const Edge& edge = graph->edge(id);
@@ -48,7 +48,7 @@ Status Gauge::apply(Graph* graph) {
     const Status status = graph->set_fixed(node, hold);
     if (!is_ok(status)) return status;
   }
-  structure_revision_ = graph->structure_revision();
+  activity_revision_ = graph->activity_revision();
   return Status::kOk;
 }
 

@@ -16,17 +16,16 @@ class Gauge {
   Gauge() = default;
   Gauge(Arena& arena, int32_t nodes) : parent_(arena.take<int32_t>(nodes)) {}
 
-  /// Fix and release nodes as needed; nothing to do while the structure is that of the last call.
+  /// Fix and release nodes as needed; nothing to do while the same edges are active as at the last
+  /// call.
   Status apply(Graph* graph);
-  /// Edges were suspended or came back: look again.
-  void edges_changed() { structure_revision_ = 0; }
 
  private:
   int32_t root_of(int32_t node);
   static bool comes_first(const Graph& graph, int32_t a, int32_t b);
 
   Span<int32_t> parent_;  // union-find; the root is the node to hold
-  uint64_t structure_revision_ = 0;
+  uint64_t activity_revision_ = 0;
 };
 
 }  // namespace unisim

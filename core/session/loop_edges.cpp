@@ -42,7 +42,8 @@ void Session::add_loop_edge(int32_t a, int32_t b, const ChainLink& link, Submap*
   }
   const RobustKernel kernel = {RobustKernelKind::kGemanMcClure, config_.loop_delta};
   LoopEdge made;
-  if (!holds(graph_.add_chain(a, b, link, {1.0, 1.0, kernel}, &made.edge))) return;
+  if (!holds(graph_.add_chain(a, b, link, {1.0, 1.0, kernel, EdgeOrigin::kLoop}, &made.edge)))
+    return;
   holds(graph_.set_suspended(made.edge, loop->health.suspended));
   if (loop->health.suspended) ++counts_.suspended_loops;
   made.loop = loop->id;

@@ -90,8 +90,8 @@ void Session::move_chain_edges(int32_t a, int32_t b, const Sim3& T_a_b) {
   for (int32_t id = 0; id < graph_.edge_end(); ++id) {
     if (!graph_.has_edge(id)) continue;
     const Edge& edge = graph_.edge(id);
-    const bool ordinary = edge.kernel.kind != RobustKernelKind::kGemanMcClure;
-    if (edge.kind == FactorKind::kChain && ordinary && edge.a == a && edge.b == b) {
+    const bool is_link = edge.kind == FactorKind::kChain && edge.origin == EdgeOrigin::kWindow;
+    if (is_link && edge.a == a && edge.b == b) {
       Lambda += graph_.link(edge).Lambda;
     }
   }
@@ -120,7 +120,7 @@ void Session::move_chain_edges(int32_t a, int32_t b, const Sim3& T_a_b) {
 /// @return the edge that took its place
 int32_t Session::replace_chain(int32_t id, int32_t a, int32_t b, const ChainLink& link) {
   const Edge edge = graph_.edge(id);
-  const EdgeWeight weight = {edge.information, edge.multiplier, edge.kernel};
+  const EdgeWeight weight = edge.given_weight();
   int32_t made = -1;
   holds(graph_.remove_edge(id));
   if (!holds(graph_.add_chain(a, b, link, weight, &made))) return id;

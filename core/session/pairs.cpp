@@ -23,11 +23,12 @@ double Session::quality_multiplier(double center_sigma) const {
   return std::max(ratio * ratio, kLeastMultiplier);
 }
 
-EdgeWeight Session::edge_weight(FactorKind kind, double multiplier, bool is_loop) const {
+EdgeWeight Session::edge_weight(FactorKind kind, double multiplier, EdgeOrigin origin) const {
   const RobustKernel kernel =
-      is_loop ? RobustKernel{RobustKernelKind::kGemanMcClure, config_.loop_delta}
-              : RobustKernel{RobustKernelKind::kHuber, config_.huber_delta};
-  return {config_.factor(kind).information, multiplier, kernel};
+      origin == EdgeOrigin::kLoop
+          ? RobustKernel{RobustKernelKind::kGemanMcClure, config_.loop_delta}
+          : RobustKernel{RobustKernelKind::kHuber, config_.huber_delta};
+  return {config_.factor(kind).information, multiplier, kernel, origin};
 }
 
 Status Session::add_keyframe(int64_t timestamp_ns, int32_t* id) {
@@ -56,12 +57,12 @@ Status Session::add_two_view(const TwoViewInput& input) {
   if (input.j <= settled_) return Status::kInvalidArgument;
   if (input.j != settled_ + 1) return Status::kNotReady;
 
+  depth_.sample(input.depth_i, &sampled_);
   double log_ratio = 0.0;
   double multiplier = quality_multiplier(input.center_sigma);
   if (keyframes_[input.i].node >= 0) {
     LogMedianRatio ratio = {};
-    depth_.load(input.depth_i);
-    if (depth_.over_two_view(input.i, &ratio)) {
+    if (depth_.over_two_view(sampled_, input.i, &ratio)) {
       log_ratio = -ratio.log_ratio;
       if (input.center_sigma == 0.0 && ratio.scatter > config_.scatter_gate) {
         refuse_pair(input.j, RefusalReason::kScatter, ratio.scatter, config_.scatter_gate);
@@ -97,16 +98,13 @@ void Session::accept_pair(const TwoViewInput& input, double log_ratio, double mu
     const int32_t source = keyframes_.pose_source(input.i);
     start_segment(input.i, source >= 0 ? keyframe_pose(source) : Sim3());
   }
-  if (starts || paper) {
-    depth_.load(input.depth_i);
-    depth_.keep_two_view(input.i);
-  }
+  if (starts || paper) depth_.keep_two_view(sampled_, input.i);
   const Keyframe& i = keyframes_[input.i];
   const Sim3& T_world_i = graph_.pose(i.node);
   const double live_ratio = paper ? 1.0 : math::exp(config_.live_scale_exponent * log_ratio);
   give_node(input.j, T_world_i * Sim3::scaling(live_ratio) * input.T_i_j, i.segment);
-  depth_.load(input.depth_j);
-  depth_.keep_two_view(input.j);
+  depth_.sample(input.depth_j, &sampled_);
+  depth_.keep_two_view(sampled_, input.j);
   if (broken_) return;
 
   if (config_.factor(FactorKind::kTwoView).enabled) {
@@ -114,7 +112,8 @@ void Session::accept_pair(const TwoViewInput& input, double log_ratio, double mu
         paper ? input.T_i_j : two_view_measurement(input.T_i_j, math::exp(log_ratio));
     int32_t edge = -1;
     holds(graph_.add_two_view(i.node, keyframes_[input.j].node, Z_i_j,
-                              edge_weight(FactorKind::kTwoView, multiplier, false), &edge));
+                              edge_weight(FactorKind::kTwoView, multiplier, EdgeOrigin::kPair),
+                              &edge));
   }
   tracking_.pair_accepted();
   if (i.state == Tracking::kInit) keyframes_[input.i].state = tracking_.state();

@@ -11,15 +11,13 @@ namespace {
 
 /// The same factor between two other nodes; its kind matters no more.
 Status copy_edge(const Graph& from, const Edge& edge, int32_t a, int32_t b, Graph* to) {
-  const EdgeWeight weight = {edge.information, edge.multiplier, edge.kernel};
+  const EdgeWeight weight = edge.given_weight();
   int32_t id = -1;
   if (!is_pose_factor(edge.kind)) return to->add_scale(a, b, edge.log_ratio, weight, &id);
   const Sim3& P = from.measurement(edge.P);
   if (edge.Q < 0) return to->add_two_view(a, b, P, weight, &id);
   return to->add_tie(a, b, P, from.measurement(edge.Q), weight, &id);
 }
-
-bool is_robust(const Edge& edge) { return edge.kernel.kind == RobustKernelKind::kGemanMcClure; }
 
 }  // namespace
 
@@ -83,7 +81,8 @@ void Session::retire_submap(int32_t m, int32_t n, int32_t end) {
 void Session::add_link(int32_t a, int32_t b, const ChainLink& link) {
   const RobustKernel kernel = {RobustKernelKind::kHuber, config_.huber_delta};
   int32_t edge = -1;
-  const Status status = graph_.add_chain(a, b, link, {1.0, 1.0, kernel}, &edge);
+  const Status status =
+      graph_.add_chain(a, b, link, {1.0, 1.0, kernel, EdgeOrigin::kWindow}, &edge);
   if (status != Status::kCapacity) holds(status);
 }
 
@@ -115,7 +114,9 @@ bool Session::load_between(const Submap& m, const Submap& n) {
   }
   for (int32_t id = 0; fits && id < graph_.edge_end(); ++id) {
     const Edge& edge = graph_.edge(id);
-    if (!edge.active() || is_robust(edge) || edge.kind == FactorKind::kChain) continue;
+    if (!edge.active() || edge.origin == EdgeOrigin::kLoop || edge.kind == FactorKind::kChain) {
+      continue;
+    }
     const int32_t a = local_node_[edge.a];
     const int32_t b = local_node_[edge.b];
     if (a >= 0 && b >= 0) fits = is_ok(copy_edge(graph_, edge, a, b, &local));

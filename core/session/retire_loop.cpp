@@ -119,14 +119,16 @@ int32_t Session::main_node(const Submap& loop, int32_t begin, int32_t end) const
   return best;
 }
 
-/// Small graph of nodes a, b and the loop; keyframes are rigid under the node of their place. The
-/// starting poses are the loop's own word, not the map's: drift must not decide where it converges.
+/// Small graph of nodes a, b and the loop. Views before `split` are rigid under a, the others under
+/// b. It starts from what the loop says, not from the poses of the map: where the map has drifted
+/// far, its poses could lead the solver to another minimum.
 bool Session::condense_loop(const Submap& loop, int32_t a, int32_t b, int32_t split,
                             ChainLink* link) {
   condenser_.clear();
   Graph& local = condenser_.graph();
-  const EdgeWeight bridge = edge_weight(FactorKind::kBridge, loop.multiplier, false);
-  const EdgeWeight anchor = edge_weight(FactorKind::kScaleAnchor, loop.multiplier, false);
+  const EdgeWeight bridge = edge_weight(FactorKind::kBridge, loop.multiplier, EdgeOrigin::kWindow);
+  const EdgeWeight anchor =
+      edge_weight(FactorKind::kScaleAnchor, loop.multiplier, EdgeOrigin::kWindow);
   const auto T_node_kf = [&](int32_t k) {
     return between(graph_.pose(k < split ? a : b), keyframe_pose(submaps_.view(loop, k).keyframe));
   };

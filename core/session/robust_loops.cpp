@@ -34,8 +34,8 @@ void Session::judge_loops() {
   }
 }
 
-/// A suspended loop is tried by its residual on the map as it is now: had it a pull, it would be
-/// next to none, for the kernel lets go of what does not agree.
+/// The trial of a suspended loop is its residual on the map as it is. To let it pull again and see
+/// would say nothing: a robust kernel has next to no pull on a loop that is far off.
 void Session::judge(LoopHealth* health, int32_t loop, double norm) {
   const bool agrees = norm <= config_.loop_gate;
   const bool was_suspended = health->suspended;
@@ -91,7 +91,6 @@ void Session::suspend_edges(const Submap& loop, bool suspended) {
 void Session::suspend_edge(int32_t edge, bool suspended) {
   if (edge < 0 || graph_.edge(edge).suspended == suspended) return;
   holds(graph_.set_suspended(edge, suspended));
-  gauge_.edges_changed();
   skeleton_is_due_ = true;
 }
 

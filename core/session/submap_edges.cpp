@@ -35,20 +35,20 @@ void Session::add_view_edges(int32_t id) {
 /// A retired keyframe is held through its owner: T_i = S_owner X_i.
 void Session::attach_view(const Submap& submap, SubmapView* view) {
   const Keyframe& keyframe = keyframes_[view->keyframe];
+  const EdgeOrigin origin = submap.is_loop ? EdgeOrigin::kLoop : EdgeOrigin::kWindow;
   const bool rigid = keyframe.retired();
   const int32_t node = rigid ? submaps_[keyframe.owner].node : keyframe.node;
   const Sim3 T_node_kf =
       rigid ? submaps_[keyframe.owner].T_node_submap * keyframe.T_owner_kf : Sim3();
   if (config_.factor(FactorKind::kBridge).enabled) {
-    const EdgeWeight weight = edge_weight(FactorKind::kBridge, submap.multiplier, submap.is_loop);
+    const EdgeWeight weight = edge_weight(FactorKind::kBridge, submap.multiplier, origin);
     const Sim3 Z_m_i = view_measurement(*view);
     holds(rigid
               ? graph_.add_rigid_bridge(submap.node, node, Z_m_i, T_node_kf, weight, &view->bridge)
               : graph_.add_bridge(submap.node, node, Z_m_i, weight, &view->bridge));
   }
   if (config_.factor(FactorKind::kScaleAnchor).enabled) {
-    const EdgeWeight weight =
-        edge_weight(FactorKind::kScaleAnchor, submap.multiplier, submap.is_loop);
+    const EdgeWeight weight = edge_weight(FactorKind::kScaleAnchor, submap.multiplier, origin);
     const double log_ratio = rigid ? view->log_rho - math::log(T_node_kf.s) : view->log_rho;
     holds(graph_.add_scale_anchor(submap.node, node, log_ratio, weight, &view->anchor));
   }
@@ -69,9 +69,9 @@ void Session::add_shared_edges(int32_t id) {
     shared.log_c = view.log_c;
     if (config_.factor(FactorKind::kTie).enabled) {
       const double multiplier = std::min(submaps_[shared.m].multiplier, submap.multiplier);
-      holds(graph_.add_tie(submaps_[shared.m].node, submap.node, shared_measurement(shared),
-                           view.T_submap_kf, edge_weight(FactorKind::kTie, multiplier, false),
-                           &shared.tie));
+      holds(graph_.add_tie(
+          submaps_[shared.m].node, submap.node, shared_measurement(shared), view.T_submap_kf,
+          edge_weight(FactorKind::kTie, multiplier, EdgeOrigin::kWindow), &shared.tie));
     }
     if (!submaps_.add_shared(shared)) holds(Status::kInternal);
   }
@@ -97,7 +97,8 @@ void Session::add_scale_edge(int32_t m, int32_t n) {
   const double multiplier = std::min(submaps_[m].multiplier, submaps_[n].multiplier);
   int32_t edge = -1;
   if (!holds(graph_.add_scale(submaps_[m].node, submaps_[n].node, median_log_c(m, n),
-                              edge_weight(FactorKind::kScale, multiplier, false), &edge))) {
+                              edge_weight(FactorKind::kScale, multiplier, EdgeOrigin::kWindow),
+                              &edge))) {
     return;
   }
   for (SharedKeyframe& shared : submaps_.shared()) {
@@ -122,8 +123,8 @@ void Session::keep_shared_depth(const SubmapInput& input, int32_t id, const Wind
     const bool in_next_window = view.keyframe > window.last() - config_.window_overlap;
     const bool in_open_window = windows_.find(view.keyframe, view.keyframe) >= 0;
     if (!view.used || !(in_next_window || in_open_window)) continue;
-    depth_.load(input.depth[k]);
-    depth_.keep_submap({view.keyframe, id, k});
+    depth_.sample(input.depth[k], &sampled_);
+    depth_.keep_submap(sampled_, {view.keyframe, id, k});
   }
 }
 

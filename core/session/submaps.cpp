@@ -82,12 +82,13 @@ void Session::measure_views(const SubmapInput& input, bool is_loop, Submap* subm
 
 void Session::measure_view(const DepthMap& depth, bool may_adopt, bool may_share,
                            SubmapView* view) {
-  if (!depth_.load(depth)) return;
+  depth_.sample(depth, &sampled_);
+  if (!sampled_.usable()) return;
   LogMedianRatio ratio = {};
   if (view->segment < 0) {
     // No pair stands behind this keyframe: the submap itself gives it its pose and unit.
     view->used = may_adopt;
-  } else if (depth_.over_two_view(view->keyframe, &ratio)) {
+  } else if (depth_.over_two_view(sampled_, view->keyframe, &ratio)) {
     view->log_rho = ratio.log_ratio;
     view->scatter = ratio.scatter;
     view->measured = true;
@@ -97,7 +98,7 @@ void Session::measure_view(const DepthMap& depth, bool may_adopt, bool may_share
   const DepthStore::Source source = depth_.submap_source(view->keyframe);
   const bool kept =
       source.keyframe >= 0 && submaps_.has(source.submap) && !submaps_[source.submap].retired;
-  if (!kept || !depth_.over_submap(view->keyframe, &ratio)) return;
+  if (!kept || !depth_.over_submap(sampled_, view->keyframe, &ratio)) return;
   view->log_c = -ratio.log_ratio;
   view->shared_submap = source.submap;
   view->shared_view = source.view;
@@ -282,8 +283,8 @@ void Session::adopt_views(const SubmapInput& input, const Submap& submap) {
     const SubmapView& view = submaps_.view(submap, k);
     if (!view.used || view.measured) continue;
     give_node(view.keyframe, graph_.pose(submap.node) * view.T_submap_kf, segment);
-    depth_.load(input.depth[k]);
-    depth_.keep_two_view(view.keyframe);
+    depth_.sample(input.depth[k], &sampled_);
+    depth_.keep_two_view(sampled_, view.keyframe);
   }
 }
 

@@ -58,26 +58,26 @@ LevenbergMarquardt::LevenbergMarquardt(Arena& arena, const SolverCapacity& capac
 void LevenbergMarquardt::note_changes(const Graph& graph) {
   for (int32_t id = 0; id < graph.node_end(); ++id) {
     const int32_t column = pattern_.column_of_node(id);
-    if (graph.changes(id) == 0 || column < 0) continue;
+    const uint8_t changes = graph.changes_since(id, seen_revision_);
+    if (changes == 0 || column < 0) continue;
     equations_.mark_changed(column);
-    if ((graph.changes(id) & kNodeRelinked) != 0) cholesky_.mark_stale(column);
+    if ((changes & kNodeRelinked) != 0) cholesky_.mark_stale(column);
   }
   for (int32_t id = 0; id < graph.edge_end(); ++id) {
     const Edge& edge = graph.edge(id);
-    if (edge.alive && (graph.changes(edge.a) | graph.changes(edge.b)) != 0) {
-      note_changed_edge(graph, id);
-    }
+    if (edge.alive) note_changed_edge(graph, id);
   }
-  graph.forget_changes();
+  seen_revision_ = graph.revision();
 }
 
 void LevenbergMarquardt::note_changed_edge(const Graph& graph, int32_t id) {
   const Edge& edge = graph.edge(id);
-  const uint8_t any = graph.changes(edge.a) | graph.changes(edge.b);
+  const uint8_t at_a = graph.changes_since(edge.a, seen_revision_);
+  const uint8_t at_b = graph.changes_since(edge.b, seen_revision_);
+  const uint8_t any = at_a | at_b;
   const bool moved = (any & kNodeMoved) != 0;
   // An edge that is new or has new numbers has relinked both of its ends.
-  const bool renewed = (graph.changes(edge.a) & graph.changes(edge.b) & kNodeRelinked) != 0 ||
-                       (any & kNodeHeld) != 0;
+  const bool renewed = (at_a & at_b & kNodeRelinked) != 0 || (any & kNodeHeld) != 0;
   if (!moved && !renewed) return;
   const bool holds =
       !renewed && relinearize_ > 0.0 && equations_.point_holds(graph, id, relinearize_);
@@ -112,7 +112,7 @@ Status LevenbergMarquardt::prepare(const Graph& graph, const LmObserver& observe
     fill_ = fill_per_column();
     equations_.forget_points();
     equations_.mark_all_changed();
-    graph.forget_changes();
+    seen_revision_ = graph.revision();
   }
   structure_revision_ = graph.structure_revision();
   return Status::kOk;

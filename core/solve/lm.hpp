@@ -47,9 +47,11 @@ struct LmReport {
   double lambda = 0.0;  ///< damping at the end
 };
 
-/// Minimises the cost of a graph over its free nodes, in memory carved at construction. Serves one
-/// graph and remembers its last system: linearised, ordered and factorised anew is only what
-/// changes of the graph reach, which is what lies above them in the elimination tree.
+/// Minimises the cost of a graph over its free nodes, in memory carved at construction.
+///
+/// Serves one graph and keeps its last system. When the graph has changed, only the columns of what
+/// changed and those above them in the elimination tree are linearised, ordered and factorised
+/// anew.
 class LevenbergMarquardt {
  public:
   LevenbergMarquardt() = default;
@@ -98,6 +100,7 @@ class LevenbergMarquardt {
   double fill_ = 0.0;                // blocks per column of the last order of all columns
   double step_size_ = 0.0;           // largest component of step_
   double shortened_ = 1.0;           // factor by which step_ is shorter than the solution
+  uint64_t seen_revision_ = 0;       // of the graph, up to which its changes have been taken in
   uint64_t structure_revision_ = 0;  // of the analysed graph
   uint64_t undamped_revision_ = 0;   // of the graph whose H the undamped factor holds
 };

@@ -26,7 +26,8 @@ const double* numbers(const Sim3& T) { return T.q.coeffs().data(); }
 
 }  // namespace
 
-/// What of an edge is asked for, and where it adds: sinks for what is fixed or not asked for.
+/// Which parts of an edge are asked for, and where each adds its numbers. A part that is not asked
+/// for, or belongs to a fixed node, points at a sink: memory that nobody reads.
 struct NormalEquations::Ends {
   bool needs_blocks;
   bool needs_gradient;

@@ -137,6 +137,36 @@ TEST_CASE("cost is the robust cost of the whitened norm; suspended edges do not 
   CHECK(graph->has_edge(id));
 }
 
+TEST_CASE("what has changed at a node is told to whoever remembers a revision") {
+  CarvedGraph graph({2, 2, 1});
+  const int32_t a = node(*graph, 0);
+  const int32_t b = node(*graph, 1);
+  const uint64_t added = graph->revision();
+  CHECK(graph->changes_since(a, added) == 0);
+  CHECK(graph->changes_since(a, added - 2) == (unisim::kNodeMoved | unisim::kNodeRelinked));
+  REQUIRE(graph->set_pose(a, Sim3()) == Status::kOk);
+  const uint64_t moved = graph->revision();
+  REQUIRE(graph->set_fixed(b, true) == Status::kOk);
+  CHECK(graph->changes_since(a, added) == unisim::kNodeMoved);
+  CHECK(graph->changes_since(a, moved) == 0);
+  CHECK(graph->changes_since(b, moved) == (unisim::kNodeHeld | unisim::kNodeRelinked));
+}
+
+TEST_CASE("suspending an edge changes which are active, not the structure") {
+  CarvedGraph graph({2, 2, 1});
+  const int32_t a = node(*graph, 0);
+  const int32_t b = node(*graph, 1);
+  int32_t edge = -1;
+  REQUIRE(graph->add_two_view(a, b, Sim3(), {}, &edge) == Status::kOk);
+  const uint64_t structure = graph->structure_revision();
+  const uint64_t active = graph->activity_revision();
+  REQUIRE(graph->set_suspended(edge, true) == Status::kOk);
+  CHECK(graph->structure_revision() == structure);
+  CHECK(graph->activity_revision() == active + 1);
+  REQUIRE(graph->set_suspended(edge, true) == Status::kOk);
+  CHECK(graph->activity_revision() == active + 1);
+}
+
 TEST_CASE("only changes of structure raise the structure revision") {
   CarvedGraph graph({2, 1, 1});
   const int32_t a = node(*graph, 0);
