@@ -144,6 +144,9 @@ class Session {
   static Status create(const SessionConfig& config, void* memory, size_t bytes, Session** session);
   /// Back to the state after create.
   Status reset();
+  /// From here on, and until its memory is used otherwise, the session is not live().
+  void end() { mark_ = 0; }
+  bool live() const { return mark_ == kLiveMark; }
 
   // ---- pairs (session/pairs.cpp)
   Status add_keyframe(int64_t timestamp_ns, int32_t* id);
@@ -310,6 +313,8 @@ class Session {
   size_t memory_bytes_ = 0;
   void* memory_ = nullptr;
   size_t used_bytes_ = 0;
+  static constexpr uint32_t kLiveMark = 0x756e6973;  // unlikely in memory of another use
+  uint32_t mark_ = kLiveMark;
   bool broken_ = false;
 
   KeyframeRing keyframes_;

@@ -5,10 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "capi/src/handle.hpp"
 #include "capi/src/read_write.hpp"
 #include "capi/src/struct_size.hpp"
 
+using unisim::check_session;
+using unisim::core;
 using unisim::DepthMap;
+using unisim::is_live;
 using unisim::Session;
 using unisim::Sim3;
 using unisim::Span;
@@ -30,15 +34,6 @@ static_assert(UNISIM_MAX_VIEWS == unisim::kMaxViews &&
               "limits and bits");
 
 namespace {
-
-Session* core(unisim_session* session) { return reinterpret_cast<Session*>(session); }
-
-/// NULL and broken sessions.
-unisim_status check_session(const unisim_session* session) {
-  if (session == nullptr) return UNISIM_ERR_INVALID_ARGUMENT;
-  const bool broken = reinterpret_cast<const Session*>(session)->broken();
-  return broken ? UNISIM_ERR_INTERNAL : UNISIM_OK;
-}
 
 bool read_poses(const unisim_sim3* from, int32_t count, Sim3* to) {
   for (int32_t k = 0; k < count; ++k) {
@@ -111,10 +106,12 @@ unisim_status unisim_session_create(unisim_session** session, const unisim_confi
 }
 
 unisim_status unisim_session_reset(unisim_session* session) {
-  return session == nullptr ? UNISIM_ERR_INVALID_ARGUMENT : to_c(core(session)->reset());
+  return is_live(session) ? to_c(core(session)->reset()) : UNISIM_ERR_INVALID_ARGUMENT;
 }
 
-void unisim_session_destroy(unisim_session* session) { static_cast<void>(session); }
+void unisim_session_destroy(unisim_session* session) {
+  if (is_live(session)) core(session)->end();
+}
 
 unisim_status unisim_add_keyframe(unisim_session* session, const unisim_keyframe* keyframe,
                                   int32_t* id) {

@@ -2,9 +2,12 @@
 // Results out, by copy.
 #include <algorithm>
 
+#include "capi/src/handle.hpp"
 #include "capi/src/read_write.hpp"
 #include "capi/src/struct_size.hpp"
 
+using unisim::check_session;
+using unisim::core;
 using unisim::PoseOutput;
 using unisim::PredictionKind;
 using unisim::RefusalReason;
@@ -31,15 +34,6 @@ static_assert(UNISIM_REFUSED_NONE == static_cast<int>(RefusalReason::kNone) &&
               "reasons of refusals");
 
 namespace {
-
-const Session* core(const unisim_session* session) {
-  return reinterpret_cast<const Session*>(session);
-}
-
-unisim_status check_session(const unisim_session* session) {
-  if (session == nullptr) return UNISIM_ERR_INVALID_ARGUMENT;
-  return core(session)->broken() ? UNISIM_ERR_INTERNAL : UNISIM_OK;
-}
 
 unisim_pose to_c(int32_t keyframe_id, const PoseOutput& pose) {
   unisim_pose p = {};
@@ -110,7 +104,7 @@ unisim_status unisim_get_covariance(unisim_session* session, int32_t keyframe_id
   if (status != UNISIM_OK) return status;
   if (covariance == nullptr) return UNISIM_ERR_INVALID_ARGUMENT;
   unisim::Mat7 block;
-  const Status done = reinterpret_cast<Session*>(session)->covariance(keyframe_id, &block);
+  const Status done = core(session)->covariance(keyframe_id, &block);
   if (done == Status::kOk) std::copy(block.data(), block.data() + block.size(), covariance);
   return to_c(done);
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What leaves the window, and how loops stand: argument checks and calls into core.
+#include "capi/src/handle.hpp"
 #include "capi/src/read_write.hpp"
 #include "capi/src/struct_size.hpp"
 
+using unisim::check_session;
+using unisim::core;
 using unisim::LoopState;
-using unisim::Session;
 using unisim::Status;
 using unisim::to_c;
 
@@ -14,22 +16,12 @@ static_assert(UNISIM_LOOP_ACTIVE == static_cast<int>(LoopState::kActive) &&
                   UNISIM_LOOP_REMOVED == static_cast<int>(LoopState::kRemoved),
               "loop states");
 
-namespace {
-
-unisim_status check_session(const unisim_session* session) {
-  if (session == nullptr) return UNISIM_ERR_INVALID_ARGUMENT;
-  const bool broken = reinterpret_cast<const Session*>(session)->broken();
-  return broken ? UNISIM_ERR_INTERNAL : UNISIM_OK;
-}
-
-}  // namespace
-
 unisim_status unisim_next_retired(unisim_session* session, unisim_retired* retired) {
   unisim_status status = check_session(session);
   if (status == UNISIM_OK) status = unisim::check_output(retired);
   if (status != UNISIM_OK) return status;
   unisim::Retired next;
-  const Status found = reinterpret_cast<Session*>(session)->next_retired(&next);
+  const Status found = core(session)->next_retired(&next);
   if (found != Status::kOk) return to_c(found);
   unisim_retired r = {};
   r.kind = next.keyframe >= 0 ? UNISIM_RETIRED_KEYFRAME : UNISIM_RETIRED_SUBMAP;
@@ -47,7 +39,7 @@ unisim_status unisim_next_retired(unisim_session* session, unisim_retired* retir
 unisim_status unisim_remove_loop(unisim_session* session, int32_t submap_id) {
   const unisim_status status = check_session(session);
   if (status != UNISIM_OK) return status;
-  return to_c(reinterpret_cast<Session*>(session)->remove_loop(submap_id));
+  return to_c(core(session)->remove_loop(submap_id));
 }
 
 unisim_status unisim_get_loop(const unisim_session* session, int32_t submap_id,
@@ -56,7 +48,7 @@ unisim_status unisim_get_loop(const unisim_session* session, int32_t submap_id,
   if (status == UNISIM_OK) status = unisim::check_output(info);
   if (status != UNISIM_OK) return status;
   unisim::LoopStatus loop;
-  const Status found = reinterpret_cast<const Session*>(session)->loop_status(submap_id, &loop);
+  const Status found = core(session)->loop_status(submap_id, &loop);
   if (found != Status::kOk) return to_c(found);
   unisim_loop_info i = {};
   i.submap_id = submap_id;
