@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 void unisim_geometric_config_init(unisim_geometric_config* config, size_t struct_size) {
@@ -34,35 +35,51 @@ struct Range {
   int32_t most;
 };
 
+/// A newer caller's fields, which this version does not know, are set.
+bool has_unknown_tail(const unisim_geometric_config& in) {
+  const auto* bytes = reinterpret_cast<const unsigned char*>(&in);
+  for (size_t i = sizeof(in); i < in.struct_size; ++i) {
+    if (bytes[i] != 0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string read_config(const unisim_geometric_config* in, unisim_geometric_config* out) {
   unisim_geometric_config_init(out, sizeof(*out));
   if (in == nullptr) return {};
-  if (in->struct_size != sizeof(*out)) {
+  constexpr size_t kFirstRelease = offsetof(unisim_geometric_config, mask);
+  if (in->struct_size < kFirstRelease || has_unknown_tail(*in)) {
     return "geometric: struct_size of the configuration is " + std::to_string(in->struct_size) +
            ", expected " + std::to_string(sizeof(*out)) + "; call unisim_geometric_config_init()";
   }
-  *out = *in;
+  std::memcpy(out, in, std::min<size_t>(in->struct_size, sizeof(*out)));
+  out->struct_size = sizeof(*out);
   const Range ranges[] = {
-      {"max_tracks", in->max_tracks, 50, 2000},
-      {"max_keyframes", in->max_keyframes, 32, 4096},
-      {"max_landmarks", in->max_landmarks, 4 * in->max_tracks, 1000000},
-      {"max_window_views", in->max_window_views, UNISIM_MAX_VIEWS, 65536},
-      {"window_size", in->window_size, 5, UNISIM_MAX_VIEWS},
-      {"adjust_every", in->adjust_every, 0, 100000},
-      {"adjust_latency", in->adjust_latency, 1, 1000},
-      {"background", in->background, 0, 1},
-      {"revive_age", in->revive_age, 0, 1000000},
-      {"revive_tries", in->revive_tries, 0, in->max_tracks},
+      {"max_tracks", out->max_tracks, 50, 2000},
+      {"max_keyframes", out->max_keyframes, 32, 4096},
+      {"max_landmarks", out->max_landmarks, 4 * out->max_tracks, 1000000},
+      {"max_window_views", out->max_window_views, UNISIM_MAX_VIEWS, 65536},
+      {"window_size", out->window_size, 5, UNISIM_MAX_VIEWS},
+      {"adjust_every", out->adjust_every, 0, 100000},
+      {"adjust_latency", out->adjust_latency, 1, 1000},
+      {"background", out->background, 0, 1},
+      {"revive_age", out->revive_age, 0, 1000000},
+      {"revive_tries", out->revive_tries, 0, out->max_tracks},
   };
   for (const Range& range : ranges) {
     if (range.value >= range.least && range.value <= range.most) continue;
     return std::string("geometric: ") + range.name + " is " + std::to_string(range.value) +
            ", must be " + std::to_string(range.least) + " to " + std::to_string(range.most);
   }
-  if (!std::isfinite(in->focal_px) || in->focal_px < 0) {
+  if (!std::isfinite(out->focal_px) || out->focal_px < 0) {
     return "geometric: focal_px must be a positive number of pixels, or 0 to estimate it";
+  }
+  const unisim_image& mask = out->mask;
+  if (mask.data != nullptr && (mask.format != UNISIM_PIXEL_GRAY8 || mask.width < 1 ||
+                               mask.height < 1 || mask.stride < mask.width)) {
+    return "geometric: mask must be a GRAY8 image";
   }
   return {};
 }

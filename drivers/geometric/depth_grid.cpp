@@ -20,6 +20,15 @@ size_t cell_of(int column, int row, const cv::Size& grid) {
   return static_cast<size_t>(row) * static_cast<size_t>(grid.width) + static_cast<size_t>(column);
 }
 
+/// The middle of a cell lies where nothing is to be looked at.
+bool hidden(const unisim_image& mask, int column, int row, const cv::Size& grid) {
+  if (mask.data == nullptr) return false;
+  const int x = (2 * column + 1) * mask.width / (2 * grid.width);
+  const int y = (2 * row + 1) * mask.height / (2 * grid.height);
+  return mask.data[static_cast<size_t>(y) * static_cast<size_t>(mask.stride) +
+                   static_cast<size_t>(x)] == 0;
+}
+
 }  // namespace
 
 cv::Size depth_grid_size(const cv::Size& image) {
@@ -82,6 +91,8 @@ void DepthGrid::run(const State& state, int32_t keyframe, const cv::Size& grid, 
   }
   for (size_t cell = 0; cell < weight_.size(); ++cell) {
     if (confidence[cell] > 0 || weight_[cell] < kMinWeight) continue;
+    const int at = static_cast<int>(cell);
+    if (hidden(state.config.mask, at % grid.width, at / grid.width, grid)) continue;
     const double mean = sum_[cell] / weight_[cell];
     const double variance = std::max(0.0, square_[cell] / weight_[cell] - mean * mean);
     depth[cell] = static_cast<float>(1 / mean);

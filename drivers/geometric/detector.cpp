@@ -19,7 +19,6 @@ const std::vector<cv::Point2f>& Detector::run(const cv::Mat& gray, const Tracks&
                                               int spacing, cv::Mat* mask) {
   found_.clear();
   if (wanted <= 0) return found_;
-  mask->setTo(0);
   for (const cv::Point2f& p : tracks.point) {
     cv::circle(*mask, cv::Point(p), spacing, cv::Scalar(255), -1);
   }

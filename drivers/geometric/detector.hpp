@@ -14,7 +14,7 @@ class Detector {
  public:
   /// Corners (FAST) of `gray`, best response first, at least `spacing` pixels from every track and
   /// from each other, at most `wanted`. The result lives until the next call.
-  /// @param mask scratch of the image's size
+  /// @param mask set where no corner may be; those around tracks and corners are set in it
   const std::vector<cv::Point2f>& run(const cv::Mat& gray, const Tracks& tracks, int wanted,
                                       int spacing, cv::Mat* mask);
 

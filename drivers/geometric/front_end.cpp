@@ -3,6 +3,8 @@
 #include "drivers/geometric/front_end.hpp"
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <vector>
 
 namespace unisim::geometric {
 
@@ -10,11 +12,18 @@ namespace {
 constexpr double kCrowded = 0.35;  // of the spacing between features
 }  // namespace
 
-void FrontEnd::open(const cv::Size& size, int max_tracks, int spacing) {
+void FrontEnd::open(const cv::Size& size, int max_tracks, int spacing, const unisim_image& look) {
   size_ = size;
   max_tracks_ = max_tracks;
   spacing_ = spacing;
   mask_.create(size, CV_8UC1);
+  if (look.data != nullptr) {
+    const cv::Mat seen(look.height, look.width, CV_8UC1, const_cast<uint8_t*>(look.data),
+                       static_cast<size_t>(look.stride));
+    // A patch that reaches into what is hidden would be held fast by it.
+    const cv::Size patch(kTrackWindow, kTrackWindow);
+    cv::dilate(seen == 0, hidden_, cv::getStructuringElement(cv::MORPH_RECT, patch));
+  }
   const auto count = 2 * static_cast<size_t>(max_tracks);
   tracker_.reserve(count);
   retrack_.reserve(count);
@@ -28,6 +37,23 @@ void FrontEnd::see(const unisim_image& image, Tracks* tracks) {
   preparation_.run(image, &prepared);
   if (last_ >= 0) flow_ = tracker_.run(current(), prepared, tracks);
   last_ = next;
+  drop_hidden(tracks);
+}
+
+void FrontEnd::drop_hidden(Tracks* tracks) const {
+  if (hidden_.empty()) return;
+  std::vector<uint8_t> bad(tracks->size());
+  for (size_t i = 0; i < bad.size(); ++i) bad[i] = hidden_.at<uint8_t>(cv::Point(tracks->point[i]));
+  tracks->remove(bad);
+}
+
+cv::Mat* FrontEnd::fresh_mask() {
+  if (hidden_.empty()) {
+    mask_.setTo(0);
+  } else {
+    hidden_.copyTo(mask_);
+  }
+  return &mask_;
 }
 
 TrackMotion FrontEnd::motion(const Tracks& tracks) {
@@ -49,12 +75,12 @@ void FrontEnd::begin_keyframe(Tracks* tracks) {
   if (keyframe_ >= 0 && keyframe_ != last_) {
     retrack_.run(images_[static_cast<size_t>(keyframe_)], current(), tracks);
   }
-  remove_crowded(std::max(2, static_cast<int>(kCrowded * spacing_)), &mask_, tracks);
+  remove_crowded(std::max(2, static_cast<int>(kCrowded * spacing_)), fresh_mask(), tracks);
 }
 
 const std::vector<cv::Point2f>& FrontEnd::detect(const Tracks& tracks) {
   const int wanted = max_tracks_ - static_cast<int>(tracks.size());
-  return detector_.run(current().gray, tracks, wanted, spacing_, &mask_);
+  return detector_.run(current().gray, tracks, wanted, spacing_, fresh_mask());
 }
 
 void FrontEnd::end_keyframe(Tracks* tracks) {

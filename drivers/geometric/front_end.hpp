@@ -21,7 +21,8 @@ struct TrackMotion {
 
 class FrontEnd {
  public:
-  void open(const cv::Size& size, int max_tracks, int spacing);
+  /// @param look where it is 0 nothing is followed; data NULL: everything may be
+  void open(const cv::Size& size, int max_tracks, int spacing, const unisim_image& look);
   /// Takes the next frame and moves the tracks into it.
   void see(const unisim_image& image, Tracks* tracks);
   TrackMotion motion(const Tracks& tracks);
@@ -36,10 +37,13 @@ class FrontEnd {
   size_t sealed() const { return sealed_; }                  ///< tracks at the last keyframe
   const PreparedImage& current() const { return images_[static_cast<size_t>(last_)]; }
   const cv::Point2f& flow() const { return flow_; }  ///< median over the last frame
-  cv::Mat* mask() { return &mask_; }
+  /// Scratch of the image's size, set where nothing may be followed.
+  cv::Mat* fresh_mask();
   int64_t bytes() const;
 
  private:
+  void drop_hidden(Tracks* tracks) const;
+
   std::array<PreparedImage, 3> images_;  // last frame, last keyframe, the next one
   int last_ = -1;
   int keyframe_ = -1;
@@ -48,6 +52,7 @@ class FrontEnd {
   int spacing_ = 1;
   size_t sealed_ = 0;  // tracks at the last keyframe
   cv::Point2f flow_{0.0F, 0.0F};
+  cv::Mat hidden_;  // set where nothing may be followed; empty: nowhere
   cv::Mat mask_;
   ImagePreparation preparation_;
   FrameTracker tracker_;

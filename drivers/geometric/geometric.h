@@ -33,6 +33,8 @@ typedef struct unisim_geometric_config {
   int32_t revive_tries;     /**< landmarks looked for per keyframe (150) */
   int32_t reserved;         /**< 0 */
   double focal_px;          /**< known focal length in pixels; 0: estimate it (0) */
+  unisim_image mask;        /**< GRAY8, of the frames' size: where it is 0 nothing is looked at (the
+                               robot's own body, a text in the image); data NULL: look everywhere */
 } unisim_geometric_config;
 
 /** Defaults for every field.
@@ -41,7 +43,7 @@ typedef struct unisim_geometric_config {
 void unisim_geometric_config_init(unisim_geometric_config* config, size_t struct_size);
 
 /** Make a geometric predictor.
- *  @param[in]  config   copied; NULL: defaults
+ *  @param[in]  config   copied, the mask's pixels too; NULL: defaults
  *  @param[out] message  one line on failure; may be NULL
  *  @param      capacity bytes of message
  *  @return NULL on failure; else free with its destroy() */

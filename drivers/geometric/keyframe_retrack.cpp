@@ -56,7 +56,6 @@ void KeyframeRetrack::run(const PreparedImage& last_keyframe, const PreparedImag
 }
 
 void remove_crowded(int distance, cv::Mat* mask, Tracks* tracks) {
-  mask->setTo(0);
   std::vector<uint8_t> bad(tracks->size(), 0);
   for (size_t i = 0; i < tracks->size(); ++i) {
     const cv::Point at(tracks->point[i]);

@@ -29,7 +29,8 @@ class KeyframeRetrack {
   std::vector<float> error_;
 };
 
-/// Removes the younger of two tracks closer than `distance`; `mask` is scratch of the image's size.
+/// Removes the younger of two tracks closer than `distance`, and those where `mask` is set; the
+/// others' surroundings are set in it.
 void remove_crowded(int distance, cv::Mat* mask, Tracks* tracks);
 
 }  // namespace unisim::geometric

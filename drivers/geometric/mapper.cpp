@@ -74,7 +74,7 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
   state_.intrinsics = Intrinsics::start(size, config.focal_px);
   const auto tracks = static_cast<size_t>(per_keyframe(config));
   state_.tracks.reserve(tracks);
-  front_end_.open(size, config.max_tracks, state_.feature_spacing);
+  front_end_.open(size, config.max_tracks, state_.feature_spacing, config.mask);
   poses_.reserve(tracks);
   growth_.reserve(tracks, static_cast<size_t>(config.max_keyframes));
   bootstrap_.reserve(tracks);
@@ -165,7 +165,7 @@ void Mapper::track(int32_t id) {
   mark_outliers(&state_, id, 2 * kInlierGate);
   const size_t before = state_.tracks.size();
   const int revived = revive_.run(patches_, front_end_.current(), newest.pose, id,
-                                  front_end_.flow(), front_end_.mask(), &state_);
+                                  front_end_.flow(), front_end_.fresh_mask(), &state_);
   if (revived > 0) {
     observe_tracks(before);
     found = poses_.refine(state_, newest.pose);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "drivers/geometric/config.hpp"
 #include "drivers/geometric/geometric.h"
@@ -25,6 +26,7 @@ constexpr int32_t kMinSide = 64;        // pixels
 struct GeometricPredictor {
   unisim_predictor table{};  // first: the table's address is the predictor's
   unisim_geometric_config config{};
+  std::vector<uint8_t> mask;  // pixels of config.mask
   std::unique_ptr<Mapper> mapper;
   std::unique_ptr<Predictions> predictions;
   cv::Size size;
@@ -52,6 +54,17 @@ int guarded(unisim_predictor* predictor, Body&& body) {
     me->message = std::string("geometric: ") + error.what();
   }
   return UNISIM_PREDICTION_FAILED;
+}
+
+/// A mask of another size than the first image's ends the run: no frame would be looked at rightly.
+bool fits_mask(GeometricPredictor* me, const unisim_image& image) {
+  const unisim_image& mask = me->config.mask;
+  if (me->mapper || mask.data == nullptr || image.data == nullptr) return true;
+  if (mask.width == image.width && mask.height == image.height) return true;
+  me->message = "the mask has " + std::to_string(mask.width) + "x" + std::to_string(mask.height) +
+                " pixels, the images " + std::to_string(image.width) + "x" +
+                std::to_string(image.height) + "; give a mask of the images' size";
+  return false;
 }
 
 /// Makes the state for the first image. @return false with a message for an unusable image
@@ -89,6 +102,7 @@ bool accept_image(GeometricPredictor* me, const unisim_image& image) {
 int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motion* motion) {
   *motion = {-1.0, -1.0, 0};
   return guarded(predictor, [&](GeometricPredictor* me) {
+    if (!fits_mask(me, frame->image)) return UNISIM_PREDICTION_FAILED;
     if (!accept_image(me, frame->image)) {
       ++me->left_out;
       me->left_out_why = me->message;
@@ -213,6 +227,16 @@ void info(unisim_predictor* predictor, unisim_predictor_info* out) {
   out->radial_k1 = intrinsics.camera.k1;
 }
 
+/// Copies the mask's pixels.
+void own_mask(GeometricPredictor* me) {
+  unisim_image& mask = me->config.mask;
+  if (mask.data == nullptr) return;
+  const size_t bytes = static_cast<size_t>(mask.stride) * static_cast<size_t>(mask.height - 1) +
+                       static_cast<size_t>(mask.width);
+  me->mask.assign(mask.data, mask.data + bytes);
+  mask.data = me->mask.data();
+}
+
 const char* message(unisim_predictor* predictor) { return self(predictor)->message.c_str(); }
 
 void destroy(unisim_predictor* predictor) { delete self(predictor); }
@@ -228,6 +252,7 @@ unisim_predictor* unisim_geometric_create(const unisim_geometric_config* config,
     auto made = std::make_unique<g::GeometricPredictor>();
     problem = g::read_config(config, &made->config);
     if (problem.empty()) {
+      g::own_mask(made.get());
       unisim_predictor& table = made->table;
       table.name = "geometric";
       table.needs_images = 1;

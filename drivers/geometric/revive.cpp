@@ -132,7 +132,6 @@ bool Revive::accept(size_t j, const Candidate& candidate, const PreparedImage& c
 
 int Revive::run(const PatchStore& patches, const PreparedImage& current, const CameraPose& pose,
                 int32_t keyframe, const cv::Point2f& flow, cv::Mat* mask, State* state) {
-  mask->setTo(0);
   const int reach = std::max(2, static_cast<int>(kOccupied * state->feature_spacing));
   for (const cv::Point2f& p : state->tracks.point) {
     cv::circle(*mask, cv::Point(p), reach, cv::Scalar(255), -1);

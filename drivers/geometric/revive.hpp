@@ -17,7 +17,7 @@ class Revive {
   void reserve(size_t landmarks, size_t tries, const cv::Size& size);
 
   /// Adds tracks for landmarks found in `current`, the image of a frame with this pose.
-  /// @param mask scratch of the image's size  @param flow start velocity of the new tracks
+  /// @param mask set where none may be; changed  @param flow start velocity of the new tracks
   /// @return number of tracks added at the end of the list
   int run(const PatchStore& patches, const PreparedImage& current, const CameraPose& pose,
           int32_t keyframe, const cv::Point2f& flow, cv::Mat* mask, State* state);

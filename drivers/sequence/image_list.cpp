@@ -19,6 +19,7 @@ bool is_pattern(const std::string& path) {
 
 std::vector<std::string> list_paths(const std::string& path) {
   if (is_pattern(path)) return list_pattern(path);
+  if (is_file(path)) return {path};
   std::vector<std::string> paths = list_images(path);
   for (std::string& name : paths) name = join(path, name);
   return paths;

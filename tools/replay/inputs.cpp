@@ -9,6 +9,7 @@
 #include "drivers/recorded/recorded.h"
 #include "drivers/sequence/sequence.h"
 #include "tools/common/failure.hpp"
+#include "tools/replay/mask.hpp"
 #include "tools/replay/window_layout.hpp"
 
 namespace unisim::replay {
@@ -56,8 +57,10 @@ PredictorPtr open_inner(const Options& options, std::vector<std::string>* notes)
     notes->emplace_back(message);
     return predictor;
   }
-  PredictorPtr predictor(
-      unisim_geometric_create(&options.settings.geometric, message, sizeof message));
+  const Mask mask = load_mask(options);
+  unisim_geometric_config config = options.settings.geometric;
+  config.mask = mask.view;
+  PredictorPtr predictor(unisim_geometric_create(&config, message, sizeof message));
   if (predictor == nullptr) throw tools::Failure(tools::kExitUsage, message);
   return predictor;
 }

@@ -58,6 +58,8 @@ void add_input_options(CLI::App* app, Options* options, Given* given) {
       ->transform(in_range(Range::whole(0, kMostFrames)));
   app->add_option("--to", options->to, "frame after the last one")
       ->transform(in_range(Range::whole(0, kMostFrames)));
+  app->add_option("--mask", options->mask,
+                  "image of the frames' size, black where nothing is to be looked at (own body)");
   app->add_option("--focal", given->focal, "known focal length in pixels (default: estimated)")
       ->transform(in_range(Range::above(0.0, kMostFocalPx)));
   app->add_option("--ground-truth", options->ground_truth,
@@ -169,6 +171,8 @@ void check(const Options& options) {
           "--predictor recorded needs --predictions FILE");
   require(options.predictions.empty() || options.predictor == "recorded",
           "--predictions goes with --predictor recorded");
+  require(options.mask.empty() || options.predictor == "geometric",
+          "--mask goes with --predictor geometric");
   const bool onnx = options.predictor == "onnx";
   require(!onnx || (!options.model_pair.empty() && !options.model_window.empty()),
           "--predictor onnx needs --model FILE, or --model-2v FILE and --model-mv FILE");

@@ -102,7 +102,8 @@ void add_figures(const Run& run, report::ReportData* page) {
                              given ? "given" : "estimated"});
   }
   page->figures.push_back({"keyframes posed", text("%.1f %%", 100.0 * coverage(run.data)),
-                           text("of %d", run.data.session.keyframes)});
+                           text("of %d, %d without", run.data.session.keyframes,
+                                run.data.session.keyframes - run.data.session.posed_keyframes)});
   page->figures.push_back({"speed",
                            text("%.0f frames/s", static_cast<double>(run.result.progress.frames) /
                                                      std::max(run.result.wall_s, 1e-9)),

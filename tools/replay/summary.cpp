@@ -177,6 +177,7 @@ Json summary_json(const Run& run) {
           {"scale", scores.ate ? Json(scores.ate->T_truth_estimate.s) : Json(nullptr)},
           {"score_problem", run.scores.problem.empty() ? Json(nullptr) : Json(run.scores.problem)},
           {"coverage", coverage(run.data)},
+          {"keyframes_unposed", info.keyframes - info.posed_keyframes},
           {"lost_events", info.lost_events},
           {"segment_scores", segments_json(run.scores)},
           {"segments", info.segments},
@@ -197,6 +198,8 @@ std::string summary_text(const Run& run, const std::vector<std::string>& files) 
                     std::to_string(info.keyframes) + " keyframes (" + keyframe_choice(run.options) +
                     "), " + std::to_string(info.submaps) + " submaps, " +
                     text("%.1f %% of the keyframes posed", 100.0 * coverage(run.data));
+  const int32_t unposed = info.keyframes - info.posed_keyframes;
+  if (unposed > 0) out += " (" + std::to_string(unposed) + " without a pose)";
   if (info.segments > 1) out += ", " + std::to_string(info.segments) + " segments";
   out += "\n" + score_line(run);
   const char* how = run.options.settings.geometric.focal_px > 0.0 ? "given" : "estimated";
