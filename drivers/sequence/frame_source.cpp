@@ -20,8 +20,9 @@ std::string seconds_text(int64_t ns) {
 
 }  // namespace
 
-FrameSource::FrameSource(const char* format_name, GroundTruth truth, std::string note)
-    : unisim_source{}, truth_(std::move(truth)), note_(std::move(note)) {
+FrameSource::FrameSource(const char* format_name, GroundTruth truth, std::string note,
+                         const PixelRule& rule)
+    : unisim_source{}, truth_(std::move(truth)), note_(std::move(note)), rule_(rule) {
   format = format_name;
   fill_table();
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "drivers/sequence/pixel_rule.hpp"
 #include "drivers/sequence/recording.hpp"
 #include "drivers/source.h"
 
@@ -25,9 +26,13 @@ class FrameSource : public unisim_source {
   FrameSource& operator=(const FrameSource&) = delete;
 
   const std::string& note() const { return note_; }
+  const PixelRule& pixel_rule() const { return rule_; }
+
+  /// File of the frame that came last.
+  virtual const std::string& frame_path() const = 0;
 
  protected:
-  FrameSource(const char* format_name, GroundTruth truth, std::string note);
+  FrameSource(const char* format_name, GroundTruth truth, std::string note, const PixelRule& rule);
 
   virtual int64_t count() const = 0;
   virtual int read(bool decode_image, unisim_frame* frame) = 0;
@@ -46,6 +51,7 @@ class FrameSource : public unisim_source {
 
   GroundTruth truth_;
   std::string note_;
+  PixelRule rule_;
   std::string message_;
   int64_t last_timestamp_ns_ = 0;
   bool any_frame_ = false;

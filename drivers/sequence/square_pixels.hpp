@@ -6,6 +6,8 @@
 #include <opencv2/videoio.hpp>
 #include <string>
 
+#include "drivers/sequence/pixel_rule.hpp"
+
 namespace unisim::sequence {
 
 /// A camera model of one focal length holds for square pixels only.
@@ -18,6 +20,8 @@ class SquarePixels {
 
   /// @param[out] stretched set where the pixels are not square @return the picture to use
   const cv::Mat& apply(const cv::Mat& image, cv::Mat* stretched) const;
+
+  PixelRule rule() const { return {1, 16, shown_}; }
 
   /// What a user should know of it, "" if nothing.
   const std::string& note() const { return note_; }
