@@ -118,6 +118,10 @@ class VideoReader:
         if self._video is None or frame.index < self._grabbed:
             self._video = cv2.VideoCapture(frame.path, cv2.CAP_FFMPEG)
             self._grabbed = 0
+            if self._video.get(cv2.CAP_PROP_ORIENTATION_META) % 360 != 0:
+                # Releases of OpenCV turn such videos in different directions.
+                raise ExportError(f"{frame.path}: a video of a turned camera: write images with: "
+                                  "ffmpeg -i FILE FOLDER/%06d.png")
         image: Optional[np.ndarray] = None
         while self._grabbed <= frame.index and self._video.grab():
             self._grabbed += 1
