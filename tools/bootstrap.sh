@@ -11,7 +11,7 @@ readonly DEMO_OPTIONS="--scene room --frames 300 --size 640x480 --seed 1 --noise
 readonly PACKAGES="cmake g++ ninja-build pkg-config python3 libeigen3-dev libopencv-dev
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev catch2"
 readonly CONTRIBUTOR_PACKAGES="ccache clang clang-format-19 clang-tidy-19 shellcheck doxygen
-  python3-numpy chromium ffmpeg g++-aarch64-linux-gnu g++-arm-linux-gnueabihf
+  python3-numpy python3-pil chromium ffmpeg g++-aarch64-linux-gnu g++-arm-linux-gnueabihf
   g++-riscv64-linux-gnu qemu-user-static"
 
 usage() {

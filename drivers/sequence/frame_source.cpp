@@ -14,8 +14,9 @@ FrameSource* self(unisim_source* source) { return static_cast<FrameSource*>(sour
 
 }  // namespace
 
-FrameSource::FrameSource(const char* format_name, GroundTruth truth, std::vector<std::string> notes)
-    : unisim_source{}, truth_(std::move(truth)), notes_(std::move(notes)) {
+FrameSource::FrameSource(const char* format_name, GroundTruth truth, std::vector<std::string> notes,
+                         const PixelRule& rule)
+    : unisim_source{}, truth_(std::move(truth)), notes_(std::move(notes)), rule_(rule) {
   format = format_name;
   fill_table();
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/sequence/pixel_rule.hpp"
 #include "drivers/sequence/recording.hpp"
 #include "drivers/source.h"
 
@@ -26,9 +27,14 @@ class FrameSource : public unisim_source {
   FrameSource& operator=(const FrameSource&) = delete;
 
   const std::vector<std::string>& notes() const { return notes_; }
+  const PixelRule& pixel_rule() const { return rule_; }
+
+  /// File of the frame that came last.
+  virtual const std::string& frame_path() const = 0;
 
  protected:
-  FrameSource(const char* format_name, GroundTruth truth, std::vector<std::string> notes);
+  FrameSource(const char* format_name, GroundTruth truth, std::vector<std::string> notes,
+              const PixelRule& rule);
 
   virtual int64_t count() const = 0;
   virtual int read(bool decode_image, unisim_frame* frame) = 0;
@@ -47,6 +53,7 @@ class FrameSource : public unisim_source {
 
   GroundTruth truth_;
   std::vector<std::string> notes_;
+  PixelRule rule_;
   std::string message_;
   int64_t last_timestamp_ns_ = 0;
   bool any_frame_ = false;

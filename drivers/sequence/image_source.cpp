@@ -11,13 +11,18 @@ namespace {
 class ImageSource final : public FrameSource {
  public:
   ImageSource(const char* format_name, Recording recording, FrameRange range, const PixelRule& rule)
-      : FrameSource(format_name, std::move(recording.truth), std::move(recording.notes)),
+      : FrameSource(format_name, std::move(recording.truth), std::move(recording.notes), rule),
         frames_(std::move(recording.frames)),
         range_(range),
         next_(range.from),
         decoder_(rule) {}
 
  private:
+  const std::string& frame_path() const override {
+    static const std::string none;
+    return next_ == range_.from ? none : frames_[static_cast<size_t>(next_ - 1)].path;
+  }
+
   int64_t count() const override { return range_.to - range_.from; }
 
   int read(bool decode_image, unisim_frame* frame) override {

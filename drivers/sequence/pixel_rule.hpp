@@ -13,6 +13,7 @@ namespace unisim::sequence {
 struct PixelRule {
   int orientation = 1;  ///< EXIF, 1 to 8: that of the first image that can be read
   int bits = 16;        ///< used of 16-bit pixels: 8, 10, 12, 14 or 16
+  cv::Size stretched;   ///< of a video's pictures; empty: as they are stored
 };
 
 /// Whole bits that hold `brightest` in steps of cameras: 8, 10, 12, 14 or 16.

@@ -113,3 +113,15 @@ const char* unisim_sequence_note(const unisim_source* source, int32_t i) {
   return i >= 0 && static_cast<size_t>(i) < notes.size() ? notes[static_cast<size_t>(i)].c_str()
                                                          : nullptr;
 }
+
+const char* unisim_sequence_frame_path(const unisim_source* source) {
+  return static_cast<const unisim::sequence::FrameSource*>(source)->frame_path().c_str();
+}
+
+void unisim_sequence_get_pixels(const unisim_source* source, unisim_sequence_pixels* pixels) {
+  const unisim::sequence::PixelRule& rule =
+      static_cast<const unisim::sequence::FrameSource*>(source)->pixel_rule();
+  const unisim_sequence_pixels all = {pixels->struct_size, rule.orientation, rule.bits,
+                                      rule.stretched.width, rule.stretched.height};
+  std::memcpy(pixels, &all, std::min<size_t>(pixels->struct_size, sizeof all));
+}

@@ -65,6 +65,25 @@ unisim_source* unisim_sequence_open(const char* path, const unisim_sequence_opti
  *  @return one line owned by the source, NULL past the last */
 const char* unisim_sequence_note(const unisim_source* source, int32_t i);
 
+/** File of the frame that next_frame() gave last: of a video always the video.
+ *  @param source one that unisim_sequence_open() gave
+ *  @return owned by the source, valid until its next call; "" before the first frame */
+const char* unisim_sequence_frame_path(const unisim_source* source);
+
+/** What is done to stored pixels, the same for every frame. */
+typedef struct unisim_sequence_pixels {
+  uint32_t struct_size;
+  int32_t orientation; /**< images are turned as EXIF says for 1 to 8; 1: not at all. Videos: 1,
+                          they come turned */
+  int32_t bits;        /**< how many of 16-bit pixels are used: 8, 10, 12, 14 or 16 */
+  int32_t width;       /**< frames of a video are stretched to this size; 0: they are not */
+  int32_t height;
+} unisim_sequence_pixels;
+
+/** @param      source one that unisim_sequence_open() gave
+ *  @param[out] pixels struct_size is the caller's, the rest is filled in as far as it reaches */
+void unisim_sequence_get_pixels(const unisim_source* source, unisim_sequence_pixels* pixels);
+
 #ifdef __cplusplus
 }
 #endif

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "drivers/sequence/pixel_rule.hpp"
+
 namespace unisim::sequence {
 
 /// A camera model of one focal length holds for square pixels only.
@@ -19,6 +21,8 @@ class SquarePixels {
 
   /// @param[out] stretched set where the pixels are not square @return the picture to use
   const cv::Mat& apply(const cv::Mat& image, cv::Mat* stretched) const;
+
+  PixelRule rule() const { return {1, 16, shown_}; }
 
   /// What a user should know of it.
   const std::vector<std::string>& notes() const { return notes_; }

@@ -58,7 +58,7 @@ class VideoSource final : public FrameSource {
  public:
   VideoSource(std::string path, cv::VideoCapture video, const SquarePixels& square, double fps,
               FrameRange range)
-      : FrameSource("video", {}, square.notes()),
+      : FrameSource("video", {}, square.notes(), square.rule()),
         path_(std::move(path)),
         video_(std::move(video)),
         square_(square),
@@ -71,6 +71,8 @@ class VideoSource final : public FrameSource {
   }
 
  private:
+  const std::string& frame_path() const override { return path_; }
+
   int64_t count() const override {
     if (total_ < 0) return -1;
     return std::max<int64_t>(0, std::min(total_, range_.to) - range_.from);

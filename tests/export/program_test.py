@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The programs as a user sees them where no model is installed: exit codes and one line."""
 
+import os
 import subprocess
 import sys
 import unittest
@@ -8,9 +9,10 @@ import unittest
 import setting
 
 
-def run(program: str, *arguments: str) -> subprocess.CompletedProcess:
+def run(program: str, *arguments: str, path: str = "") -> subprocess.CompletedProcess:
     return subprocess.run([sys.executable, "-B", str(setting.TOOLS / program), *arguments],
-                          capture_output=True, text=True, check=False)
+                          capture_output=True, text=True, check=False,
+                          env={**os.environ, "PYTHONPATH": path})
 
 
 class Programs(unittest.TestCase):
@@ -51,9 +53,19 @@ class Programs(unittest.TestCase):
         self.refused(2, "no such folder", "unisim_export.py", "da3-small", "--out", "x.onnx",
                      "--random-weights", "--package-path", "/nowhere")
 
+    @unittest.skipUnless(os.environ.get("UNISIM_REPLAY"), "skipped: no unisim-replay")
     def test_a_sequence_that_is_not_there_is_bad_input(self):
         self.refused(3, "/nowhere", "record.py", "da3-small", "/nowhere", "--out", "x.usr",
-                     "--random-weights")
+                     "--random-weights", "--unisim-replay", os.environ["UNISIM_REPLAY"])
+
+    def test_without_numpy_every_program_says_so_in_one_line(self):
+        folder = setting.fresh_folder(self.addCleanup)
+        (folder / "numpy.py").write_text("raise ImportError('none here', name='numpy')")
+        for program in sorted(path.name for path in setting.TOOLS.glob("*.py")):
+            result = run(program, "info", path=str(folder))
+            self.assertEqual(result.returncode, 2, program)
+            self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+            self.assertIn("numpy is missing", result.stderr)
 
 
 if __name__ == "__main__":

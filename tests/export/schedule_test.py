@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Which keyframes the windows hold, and the frames of a folder."""
+"""Which keyframes the windows hold."""
 
 import unittest
 
-import setting
+import setting  # noqa: F401
 from contract.errors import ExportError
-from recording.frames import UNKNOWN_TIME, list_frames
 from recording.schedule import loop_window, windows
 
 
@@ -36,34 +35,6 @@ class Windows(unittest.TestCase):
     def test_a_loop_to_a_keyframe_that_is_not_there_is_refused(self):
         with self.assertRaises(ExportError):
             loop_window(20, 3, 20, 8)
-
-
-class Frames(unittest.TestCase):
-    def setUp(self):
-        self.folder = setting.fresh_folder(self.addCleanup)
-
-    def test_images_come_in_natural_order(self):
-        for name in ("10.png", "9.png", "1.png", "notes.txt"):
-            (self.folder / name).touch()
-        names = [frame.path.name for frame in list_frames(self.folder)]
-        self.assertEqual(names, ["1.png", "9.png", "10.png"])
-
-    def test_a_tum_list_gives_its_times_to_the_nanosecond(self):
-        (self.folder / "rgb.txt").write_text("# comment\n1305031102.175304 rgb/a.png\n\nbroken\n")
-        frame, = list_frames(self.folder)
-        self.assertEqual(frame.timestamp_ns, 1305031102175304000)
-        self.assertEqual(frame.path, self.folder / "rgb" / "a.png")
-
-    def test_seven_scenes_takes_the_colour_images_only(self):
-        for kind in ("color", "depth"):
-            (self.folder / f"frame-000001.{kind}.png").touch()
-        frame, = list_frames(self.folder)
-        self.assertEqual(frame.path.name, "frame-000001.color.png")
-        self.assertEqual(frame.timestamp_ns, UNKNOWN_TIME)
-
-    def test_an_empty_folder_is_refused_by_name(self):
-        with self.assertRaisesRegex(ExportError, str(self.folder)):
-            list_frames(self.folder)
 
 
 if __name__ == "__main__":

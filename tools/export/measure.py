@@ -16,10 +16,11 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-import numpy as np  # noqa: E402
+from contract.errors import BAD_USAGE, ExportError, packages_of, run  # noqa: E402
 
-from contract.errors import BAD_USAGE, ExportError, run  # noqa: E402
-from exporters.runner import OnnxRunner  # noqa: E402
+with packages_of("measure.py"):
+    import numpy as np
+    from exporters.runner import OnnxRunner
 
 
 def measure_here(path: Path, views: int, threads: int, repeat: int) -> int:

@@ -6,8 +6,10 @@
     record.py FILE.onnx SEQUENCE --out FILE.usr
     unisim-replay SEQUENCE --stride 5 --predictor recorded --predictions FILE.usr --out DIR
 
-With two models, `--windows-by` names the second, which predicts the windows. Exit code 0 done,
-2 bad usage or a package that is missing, 3 bad input."""
+With two models, `--windows-by` names the second, which predicts the windows. The frames are those
+that `unisim-replay --list-frames` lists. Exit code 0 done, 1 interrupted, 2 bad usage or a package
+or program that is missing, 3 bad input, 4 disk, memory or inference failed. What was predicted
+before stays in the file and can be replayed."""
 
 import argparse
 import sys
@@ -17,28 +19,31 @@ from typing import List, Optional, Tuple
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-import numpy as np  # noqa: E402
+from contract.errors import BAD_USAGE, ExportError, disk_code, packages_of, run, say  # noqa: E402
 
-from contract.card import ModelCard, card_of, check_size  # noqa: E402
-from contract.errors import BAD_USAGE, ExportError, run  # noqa: E402
-from contract.poses import compose, inverse  # noqa: E402
-from contract.validate import MIN_POSE_CONFIDENCE  # noqa: E402
-from exporters.cards import CARDS, find_card  # noqa: E402
-from exporters.options import add_model_arguments, exporter_module, model_options  # noqa: E402
-from exporters.runner import TorchRunner, open_onnx  # noqa: E402
-from recording.frames import Frame, list_frames, load  # noqa: E402
-from recording.predictor import Predictor, Rejected  # noqa: E402
-from recording.schedule import loop_window, windows  # noqa: E402
-from unisim_export import parse_size  # noqa: E402
-from unisim_record import RecordError, RecordWriter  # noqa: E402
+with packages_of("record.py"):
+    from contract.card import ModelCard, card_of, check_size
+    from contract.poses import compose, inverse
+    from contract.validate import MIN_POSE_CONFIDENCE
+    from exporters.cards import CARDS, find_card
+    from exporters.options import add_model_arguments, exporter_module, model_options
+    from exporters.runner import TorchRunner, open_onnx
+    from recording.frames import Frame, list_frames
+    from recording.keyframes import SameSize, choose_keyframes
+    from recording.pixels import reader_of
+    from recording.predictor import Predictor, Rejected
+    from recording.schedule import loop_window, windows
+    from unisim_export import parse_size
+    from unisim_record import RecordError, RecordWriter
 
 
 def parse_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="record.py", description=__doc__.split("\n")[0])
     parser.add_argument("model", metavar="MODEL|FILE.onnx", help=" ".join(CARDS))
-    parser.add_argument("sequence", type=Path, metavar="SEQUENCE")
+    parser.add_argument("sequence", metavar="SEQUENCE")
     parser.add_argument("--out", type=Path, required=True, metavar="FILE.usr")
     parser.add_argument("--windows-by", metavar="FILE.onnx", help="the model of the windows")
+    parser.add_argument("--format", default="auto", help="of the sequence, as of unisim-replay")
     parser.add_argument("--stride", type=int, default=5, help="every N-th frame is a keyframe")
     parser.add_argument("--from", type=int, default=0, dest="first", metavar="A")
     parser.add_argument("--to", type=int, metavar="B", help="frames [A, B)")
@@ -53,6 +58,9 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--device", default="cpu", help="of a torch model: cpu, cuda")
     parser.add_argument("--provider", help="of an ONNX file, for example CUDAExecutionProvider")
     parser.add_argument("--threads", type=int, default=0)
+    parser.add_argument("--unisim-replay", metavar="PATH",
+                        help="the program that lists the frames (default: this checkout's build, "
+                        "then the one on the path)")
     add_model_arguments(parser)
     return parser.parse_args()
 
@@ -77,16 +85,19 @@ def open_model(name: str, arguments: argparse.Namespace) -> Tuple[object, ModelC
     return runner, card, size
 
 
-def choose_frames(arguments: argparse.Namespace, frames: List[Frame]) -> List[int]:
-    """Indices of the frames that are keyframes."""
+def find_keyframes(arguments: argparse.Namespace) -> Tuple[List[Frame], Tuple[int, int]]:
+    """Frames that are keyframes, each of which could be read, and their (height, width)."""
     if arguments.stride < 1 or arguments.first < 0:
         raise ExportError("--stride is 1 or more, --from is 0 or more", BAD_USAGE)
-    end = len(frames) if arguments.to is None else min(arguments.to, len(frames))
-    chosen = list(range(arguments.first, end, arguments.stride))
+    frames = list_frames(arguments.sequence, arguments.first, arguments.to, arguments.format,
+                         arguments.unisim_replay)
+    load = SameSize(reader_of(frames))
+    chosen = choose_keyframes(frames, arguments.stride, load,
+                              lambda line: say("record.py", line))
     if len(chosen) < 2:
         raise ExportError(f"{arguments.sequence}: {len(chosen)} keyframes of {len(frames)} frames; "
                           "lower --stride or widen --from and --to")
-    return chosen
+    return chosen, load.shape[:2]
 
 
 def parse_loops(texts: List[str], keyframes: int, size: int) -> List[List[int]]:
@@ -138,10 +149,30 @@ def write_all(record: RecordWriter, pair_model: Predictor, window_model: Predict
     return [reason for reason in faults if reason]
 
 
+def record_all(arguments: argparse.Namespace, models: List[Predictor], names: str,
+               chosen: List[Frame], image_size: Tuple[int, int],
+               wanted: List[List[int]]) -> List[str]:
+    """Writes the file; the reasons of what was rejected."""
+    sequence = Path(arguments.sequence).name
+    try:
+        with RecordWriter(str(arguments.out), sequence=sequence, predictor=names,
+                          image_size=image_size[::-1], creator="record.py") as record:
+            try:
+                for k, frame in enumerate(chosen):
+                    record.keyframe(k, frame.index, frame.timestamp_ns)
+                return write_all(record, models[0], models[-1], len(chosen), wanted)
+            except ExportError as error:
+                kept = f"{arguments.out} keeps what was predicted before"
+                raise ExportError(f"{error}; {kept}", error.code) from error
+    except RecordError as error:
+        raise ExportError(f"{arguments.out}: {error}") from error
+    except OSError as error:
+        raise ExportError(f"{arguments.out}: {error.strerror}", disk_code(error)) from error
+
+
 def main() -> int:
     arguments = parse_arguments()
-    frames = list_frames(arguments.sequence)
-    chosen = choose_frames(arguments, frames)
+    chosen, image_size = find_keyframes(arguments)
     wanted = [] if arguments.no_windows else windows(len(chosen), arguments.window,
                                                      arguments.overlap)
     wanted += parse_loops(arguments.loop, len(chosen), arguments.window)
@@ -150,28 +181,16 @@ def main() -> int:
     if wanted and opened[-1][1].kind == "pair":
         raise ExportError(f"{opened[-1][1].name}: predicts pairs only; add --windows-by FILE.onnx "
                           "or --no-windows", BAD_USAGE)
-    image_size = load(frames[chosen[0]].path).shape[:2]
 
-    def load_keyframe(k: int) -> np.ndarray:
-        image = load(frames[chosen[k]].path)
-        if image.shape[:2] != image_size:
-            raise ExportError(f"{frames[chosen[k]].path}: {image.shape[1]}x{image.shape[0]}, the "
-                              f"first frame is {image_size[1]}x{image_size[0]}")
-        return image
+    def predictor(runner: object, card: ModelCard, size: Tuple[int, int]) -> Predictor:
+        load = reader_of(chosen)  # one each: a video is read forward
+        return Predictor(runner, card, size, image_size, lambda k: load(chosen[k]),
+                         arguments.min_pose_confidence)
 
-    models = [Predictor(runner, card, size, image_size, load_keyframe,
-                        arguments.min_pose_confidence)
-              for runner, card, size in opened]
+    models = [predictor(*parts) for parts in opened]
     start = time.monotonic()
     names = "+".join(card.name for _, card, _ in opened)
-    try:
-        with RecordWriter(str(arguments.out), sequence=arguments.sequence.name, predictor=names,
-                          image_size=image_size[::-1], creator="record.py") as record:
-            for k, frame in enumerate(chosen):
-                record.keyframe(k, frame, frames[frame].timestamp_ns)
-            faults = write_all(record, models[0], models[-1], len(chosen), wanted)
-    except (OSError, RecordError) as error:
-        raise ExportError(f"{arguments.out}: {error}") from error
+    faults = record_all(arguments, models, names, chosen, image_size, wanted)
     print(f"{arguments.out}: {len(chosen)} keyframes, {len(chosen) - 1} pairs, {len(wanted)} "
           f"windows, {len(faults)} rejected, {time.monotonic() - start:.0f} s")
     if faults:

@@ -18,12 +18,14 @@ from typing import List, Tuple
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from contract.card import check_size, check_split, metadata  # noqa: E402
-from contract.errors import BAD_INPUT, BAD_USAGE, ExportError, run  # noqa: E402
-from contract.validate import fault  # noqa: E402
-from exporters.cards import CARDS, find_card  # noqa: E402
-from exporters.options import BuildOptions, add_model_arguments, exporter_module  # noqa: E402
-from exporters.options import model_options  # noqa: E402
+from contract.errors import BAD_INPUT, BAD_USAGE, ExportError, packages_of, run  # noqa: E402
+
+with packages_of("unisim_export.py"):
+    from contract.card import check_size, check_split, metadata
+    from contract.validate import fault
+    from exporters.cards import CARDS, find_card
+    from exporters.options import BuildOptions, add_model_arguments, exporter_module
+    from exporters.options import model_options
 
 FP32_BOUND = 1e-4
 

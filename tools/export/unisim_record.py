@@ -30,7 +30,14 @@ import argparse
 import struct
 import sys
 
-import numpy as np
+try:
+    import numpy as np
+except ImportError as missing:
+    if __name__ != "__main__":
+        raise
+    print(f"unisim_record.py: Python package numpy is missing ({missing}): pip install -r "
+          "requirements.txt", file=sys.stderr)
+    sys.exit(2)
 
 MAGIC = b"\x89USR\r\n\x1a\n"
 VERSION = 1
@@ -178,7 +185,7 @@ class RecordWriter:
         width, height = image_size
         header = struct.pack("<iiiI", int(width), int(height), -1, 0)
         for text in (creator, sequence, predictor):
-            encoded = text.encode("utf-8")[:4096]
+            encoded = text.encode("utf-8", "replace")[:4096]
             header += struct.pack("<I", len(encoded)) + encoded
         header += bytes((4 - len(header)) % 8)
         head = MAGIC + struct.pack("<II", VERSION, 16 + len(header) + 4) + header

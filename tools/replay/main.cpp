@@ -3,6 +3,7 @@
 #include "tools/common/failure.hpp"
 #include "tools/common/output.hpp"
 #include "tools/common/program.hpp"
+#include "tools/replay/frame_list.hpp"
 #include "tools/replay/interrupt.hpp"
 #include "tools/replay/options.hpp"
 #include "tools/replay/replay.hpp"
@@ -18,7 +19,7 @@ int run(int argc, const char* const* argv) {
     tools::print(settings_text(options->settings));
     return tools::kExitDone;
   }
-  return replay(*options, stop);
+  return options->list_frames ? list_frames(*options, stop) : replay(*options, stop);
 }
 
 }  // namespace

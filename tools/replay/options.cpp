@@ -64,6 +64,8 @@ void add_input_options(CLI::App* app, Options* options, Given* given) {
       ->transform(in_range(Range::above(0.0, kMostFocalPx)));
   app->add_option("--ground-truth", options->ground_truth,
                   "poses in TUM format (default: what the sequence carries)");
+  app->add_flag("--list-frames", options->list_frames,
+                "print the frames as JSON lines (--format, --from, --to, --stride), end");
   app->add_flag("--realtime", given->realtime, "keep to the recorded times, drop late frames");
 }
 
@@ -165,7 +167,10 @@ void check(const Options& options) {
     if (!good) throw tools::Failure(tools::kExitUsage, line);
   };
   require(!options.sequence.empty(), "SEQUENCE is missing: give a folder, a glob or a video file");
-  require(!options.out.empty(), "--out is missing: give a folder for the results");
+  require(options.list_frames || !options.out.empty(),
+          "--out is missing: give a folder for the results");
+  require(!options.list_frames || options.out.empty(),
+          "--list-frames prints and writes no results: leave --out away");
   require(options.to < 0 || options.to > options.from, "--to must be greater than --from");
   require(options.predictor != "recorded" || !options.predictions.empty(),
           "--predictor recorded needs --predictions FILE");

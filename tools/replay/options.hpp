@@ -33,6 +33,7 @@ struct Options {
   bool json = false;
   bool report = true;
   bool print_config = false;
+  bool list_frames = false;
   Settings settings;  ///< defaults, then --config, then the options
 };
 

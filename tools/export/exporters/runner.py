@@ -7,7 +7,7 @@ from typing import Dict, Optional
 import numpy as np
 
 from contract.card import encoder_path
-from contract.errors import ExportError
+from contract.errors import LIMIT, ExportError
 
 Outputs = Dict[str, np.ndarray]
 
@@ -38,6 +38,7 @@ class OnnxRunner:
 
     def __init__(self, path: Path, threads: int = 0, provider: Optional[str] = None):
         import onnxruntime
+        self._path = path
         settings = onnxruntime.SessionOptions()
         settings.intra_op_num_threads = threads
         settings.log_severity_level = 3
@@ -58,7 +59,12 @@ class OnnxRunner:
         self._names = [output.name for output in self._session.get_outputs()]
 
     def run(self, values: np.ndarray) -> Outputs:
-        return dict(zip(self._names, self._session.run(None, {self._input: values})))
+        try:
+            found = self._session.run(None, {self._input: values})
+        except Exception as error:  # the runtime's own error types have no common base
+            reason = str(error).splitlines()[0]
+            raise ExportError(f"{self._path}: inference failed: {reason}", LIMIT) from error
+        return dict(zip(self._names, found))
 
 
 class SplitRunner:

@@ -11,6 +11,7 @@ from contract.framing import Framing, image_focal, make_framing, preprocess, to_
 from contract.poses import reanchor
 from contract.quantile import quantiles
 from contract.validate import MIN_POSE_CONFIDENCE, fault
+from recording.pixels import Unreadable
 
 
 class Rejected(Exception):
@@ -51,7 +52,11 @@ class Predictor:
         return self._inputs[keyframe]
 
     def predict(self, keyframes: Sequence[int]) -> Prediction:
-        outputs = self._runner.run(np.stack([self._input(k) for k in keyframes])[None])
+        try:
+            inputs = np.stack([self._input(k) for k in keyframes])[None]
+        except Unreadable as error:  # it could be read when the keyframes were chosen
+            raise Rejected(str(error)) from error
+        outputs = self._runner.run(inputs)
         wrong = fault(outputs, self._min_pose_confidence)
         if wrong:
             raise Rejected(f"{self._card.name}: {wrong}")
