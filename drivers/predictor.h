@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /** @file predictor.h
  *  A predictor turns images into two-view and multi-view predictions. A network, a recording and
- * our own geometry answer through the same table; nothing behind it knows of the session.
+ *  our own geometry answer through the same table; nothing behind it knows of the session.
  *
  *  Order of calls: observe() for every frame in time order; keyframe() when the frame just observed
- * is taken as a keyframe; then two_view(), multi_view(), next_revision() as the session asks.
- *  Results are borrowed: valid until the next call of the same function. One thread at a time.
- */
+ *  is taken as a keyframe; then two_view(), multi_view(), next_revision() as the session asks.
+ *  Results are borrowed: valid until the next call of the same function.
+ *
+ *  Threads. Two groups of functions, in each of them one call at a time:
+ *  - front: observe(), keyframe(), two_view(), frame_pose(), message();
+ *  - back: multi_view(), next_revision(), next_wide_window(), window_message().
+ *  With concurrent_windows the groups run beside each other, on two threads; without it all calls
+ *  come from one thread. While finish(), info() or destroy() runs, nothing else does. */
 #ifndef UNISIM_DRIVERS_PREDICTOR_H
 #define UNISIM_DRIVERS_PREDICTOR_H
 
@@ -19,6 +24,11 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/** A replay takes the answer of multi_view() at most half as many keyframes after it has asked, and
+ *  asks no later than that after the last keyframe of the window: for so long a predictor with
+ *  concurrent_windows keeps what it needs of a window's keyframes. */
+#define UNISIM_WINDOW_LAG 8
 
 #define UNISIM_PREDICTION_OK 0
 #define UNISIM_PREDICTION_PENDING 1  /**< not known yet: ask again after the next keyframe */
@@ -89,8 +99,15 @@ typedef struct unisim_predictor_info {
 /** A predictor. Free with destroy(predictor). Functions marked optional may be NULL. */
 typedef struct unisim_predictor unisim_predictor;
 struct unisim_predictor {
-  const char* name;     /**< "geometric", "recorded", "onnx": static text */
-  int32_t needs_images; /**< 0: observe() and keyframe() take images with data NULL */
+  uint32_t
+      struct_size; /**< sizeof this struct, set by whoever fills it; a larger one is accepted */
+  int32_t needs_images;       /**< 0: observe() and keyframe() take images with data NULL */
+  const char* name;           /**< "geometric", "recorded", "onnx": static text */
+  int32_t concurrent_windows; /**< 1: the groups may run beside each other. What the back group says
+                                   then follows from the keyframes it is asked for and from what it
+                                   was asked before, not from how far the front is: else two replays
+                                   would differ */
+  int32_t reserved;           /**< 0 */
 
   /** See one frame. @return UNISIM_PREDICTION_OK, _REJECTED (frame of no use), _FAILED */
   int (*observe)(unisim_predictor* predictor, const unisim_frame* frame, unisim_motion* motion);
@@ -127,6 +144,9 @@ struct unisim_predictor {
 
   /** One line about the last REJECTED or FAILED: what, where, what to do. */
   const char* (*message)(unisim_predictor* predictor);
+
+  /** The same for the back group; NULL: message() says it, which needs concurrent_windows 0. */
+  const char* (*window_message)(unisim_predictor* predictor);
 
   void (*destroy)(unisim_predictor* predictor);
 };

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /** @file source.h
  *  A source of frames: a recorded sequence or a camera. A table of functions, so that each reader
- * and each camera driver is one file that knows nothing of the others. One source, one thread at a
- * time.
- */
+ *  and each camera driver is one file that knows nothing of the others. One source, one thread at a
+ *  time, interrupt() excepted. */
 #ifndef UNISIM_DRIVERS_SOURCE_H
 #define UNISIM_DRIVERS_SOURCE_H
 
@@ -39,6 +38,9 @@ typedef struct unisim_stamped_pose {
 /** A source. Free with destroy(source). */
 typedef struct unisim_source unisim_source;
 struct unisim_source {
+  uint32_t
+      struct_size;    /**< sizeof this struct, set by whoever fills it; a larger one is accepted */
+  int32_t reserved;   /**< 0 */
   const char* format; /**< "tum", "7scenes", ...: static text */
 
   /** Frames in all, -1 if not known before the end. */
@@ -47,11 +49,13 @@ struct unisim_source {
   /** Next frame. @param decode 0: leave image.data NULL and save the time @return UNISIM_FRAME_* */
   int (*next_frame)(unisim_source* source, int decode, unisim_frame* frame);
 
-  /** Decode the image of the frame that next_frame() gave last. @return UNISIM_FRAME_OK or _BAD */
-  int (*decode)(unisim_source* source, unisim_frame* frame);
+  /** Make a next_frame() that waits come back soon, and all later ones, with UNISIM_FRAME_END: the
+   *  run is to end. From any thread at any time; optional, for sources that can wait for long. */
+  void (*interrupt)(unisim_source* source);
 
-  /** Ground truth the sequence carries. @param[out] poses owned by the source @return their number,
-   * 0 if none */
+  /** Ground truth the sequence carries.
+   *  @param[out] poses owned by the source
+   *  @return their number, 0 if none */
   int64_t (*ground_truth)(unisim_source* source, const unisim_stamped_pose** poses);
 
   /** Where the ground truth was read, "" if none. */

@@ -254,6 +254,7 @@ unisim_predictor* unisim_geometric_create(const unisim_geometric_config* config,
     if (problem.empty()) {
       g::own_mask(made.get());
       unisim_predictor& table = made->table;
+      table.struct_size = sizeof table;
       table.name = "geometric";
       table.needs_images = 1;
       table.observe = g::observe;

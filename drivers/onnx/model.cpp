@@ -12,10 +12,17 @@ namespace unisim::onnx {
 
 Model::Model(std::shared_ptr<const Runtime> runtime, const std::string& path,
              const RunOptions& options)
-    : network_(std::move(runtime), path, options),
-      contract_(
-          read_contract(path, [this](const std::string& key) { return network_.metadata(key); })) {
+    : Model(std::make_shared<Network>(std::move(runtime), path, options)) {}
+
+Model::Model(std::shared_ptr<Network> network)
+    : network_(std::move(network)),
+      contract_(read_contract(network_->path(),
+                              [this](const std::string& key) { return network_->metadata(key); })) {
   check_tensors();
+}
+
+std::unique_ptr<Model> Model::another_lane() const {
+  return std::unique_ptr<Model>(new Model(network_));
 }
 
 std::vector<int64_t> Model::input_shape(int64_t views) const {
@@ -27,7 +34,7 @@ std::vector<int64_t> Model::input_shape(int64_t views) const {
 void Model::check_input() {
   if (contract_.takes_features) {
     const std::vector<int64_t>& shape =
-        require_only_input(network_, "features", {1, kAnySize, kAnySize, kAnySize}).shape;
+        require_only_input(*network_, "features", {1, kAnySize, kAnySize, kAnySize}).shape;
     tokens_ = shape[2];
     channels_ = shape[3];
     if (tokens_ < 1 || channels_ < 1) {
@@ -39,7 +46,7 @@ void Model::check_input() {
     return;
   }
   const bool one = contract_.kind == Kind::kDescriptor;
-  require_only_input(network_, one ? "image" : "images", input_shape(kAnySize));
+  require_only_input(*network_, one ? "image" : "images", input_shape(kAnySize));
   view_floats_ = 3 * pixels();
 }
 
@@ -50,7 +57,7 @@ void Model::check_tensors() {
   }
   check_input();
   if (contract_.kind == Kind::kDescriptor) {
-    const int64_t length = require_output(network_, "descriptor", {1, kAnySize}).shape[1];
+    const int64_t length = require_output(*network_, "descriptor", {1, kAnySize}).shape[1];
     if (length < 1) {
       throw OnnxError(UNISIM_ONNX_BAD_MODEL,
                       path() + ": output descriptor must have a fixed length");
@@ -58,13 +65,13 @@ void Model::check_tensors() {
     descriptor_.resize(static_cast<size_t>(length));
     return;
   }
-  require_output(network_, "depth", {1, kAnySize, contract_.height, contract_.width});
-  require_output(network_, "confidence", {1, kAnySize, contract_.height, contract_.width});
-  require_output(network_, "pose", {1, kAnySize, 3, 4});
-  require_output(network_, "intrinsics", {1, kAnySize, 3, 3});
-  for (const TensorInfo& output : network_.outputs()) {
+  require_output(*network_, "depth", {1, kAnySize, contract_.height, contract_.width});
+  require_output(*network_, "confidence", {1, kAnySize, contract_.height, contract_.width});
+  require_output(*network_, "pose", {1, kAnySize, 3, 4});
+  require_output(*network_, "intrinsics", {1, kAnySize, 3, 3});
+  for (const TensorInfo& output : network_->outputs()) {
     if (output.name != "pose_confidence") continue;
-    require_output(network_, output.name, {1, kAnySize});
+    require_output(*network_, output.name, {1, kAnySize});
     confidences_ = output.shape[1] == 1 ? 1 : -1;
   }
 }
@@ -88,7 +95,7 @@ void Model::bind(int32_t views) {
   const int64_t width = contract_.width;
   if (contract_.kind == Kind::kDescriptor) {
     bindings_[index] = std::make_unique<Network::Binding>(
-        network_, std::vector<BoundTensor>{{"image", input_.data(), input_shape(1)}},
+        *network_, std::vector<BoundTensor>{{"image", input_.data(), input_shape(1)}},
         std::vector<BoundTensor>{
             {"descriptor", descriptor_.data(), {1, static_cast<int64_t>(descriptor_.size())}}});
     return;
@@ -103,7 +110,7 @@ void Model::bind(int32_t views) {
   }
   const char* const input = contract_.takes_features ? "features" : "images";
   bindings_[index] = std::make_unique<Network::Binding>(
-      network_, std::vector<BoundTensor>{{input, input_.data(), input_shape(views)}}, outputs);
+      *network_, std::vector<BoundTensor>{{input, input_.data(), input_shape(views)}}, outputs);
 }
 
 void Model::measure(int32_t views) {
@@ -151,7 +158,7 @@ std::string Model::run(int32_t views) {
   for (int32_t extra = views; extra < count; ++extra) {
     std::copy_n(input(views - 1), view_floats(), input(extra));
   }
-  return network_.run(*bindings_[static_cast<size_t>(count)]);
+  return network_->run(*bindings_[static_cast<size_t>(count)]);
 }
 
 float Model::pose_confidence() const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A network that keeps the model contract, with its buffers.
+// A network that keeps the model contract, with the buffers of one lane.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,12 @@ class Model {
   /// Loads the file and holds it against the contract. @throws OnnxError
   Model(std::shared_ptr<const Runtime> runtime, const std::string& path, const RunOptions& options);
 
+  /// The same network, loaded once, with buffers of its own: the two may run beside each other.
+  std::unique_ptr<Model> another_lane() const;
+  bool same_network(const Model& other) const { return network_ == other.network_; }
+
   const Contract& contract() const { return contract_; }
-  const std::string& path() const { return network_.path(); }
+  const std::string& path() const { return network_->path(); }
   /// Of one view's input.
   int64_t view_floats() const { return view_floats_; }
   int64_t view_bytes() const { return view_floats_ * static_cast<int64_t>(sizeof(float)); }
@@ -56,6 +60,8 @@ class Model {
   const std::vector<float>& descriptor() const { return descriptor_; }
 
  private:
+  explicit Model(std::shared_ptr<Network> network);
+
   void check_tensors();
   void check_input();
   void take_buffers(int32_t views);
@@ -64,7 +70,7 @@ class Model {
   int32_t measured_views(int32_t fewest, int32_t most, const MemoryBudget& budget);
   int32_t stated_views(int32_t fewest, int32_t most, const MemoryBudget& budget);
 
-  Network network_;
+  std::shared_ptr<Network> network_;
   Contract contract_;
   int64_t tokens_ = 0;    // of the features of one view
   int64_t channels_ = 0;  // of each token

@@ -7,6 +7,7 @@
 #include "drivers/onnx/encoders.hpp"
 #include "drivers/onnx/error.hpp"
 #include "drivers/onnx/model_notes.hpp"
+#include "drivers/predictor.h"
 
 namespace unisim::onnx {
 namespace {
@@ -14,6 +15,8 @@ namespace {
 constexpr int32_t kPairViews = 2;
 // Windows wait for the pairs after them: a few keyframes more than a window are kept.
 constexpr int32_t kSpareViews = 4;
+// The tracking goes on while a window is inferred: as much further as drivers/predictor.h allows.
+constexpr int32_t kSpareWindowViews = kSpareViews + UNISIM_WINDOW_LAG;
 
 void require_kind(const Model& model, bool fits, const char* role, const char* wanted) {
   if (fits) return;
@@ -27,8 +30,8 @@ void load_roles(const Config& config, const std::shared_ptr<const Runtime>& runt
   require_kind(*models->pair, models->pair->contract().kind != Kind::kDescriptor, "pairs",
                "a model of kind pair or multiview");
   models->window = config.model_window == config.model_pair
-                       ? models->pair
-                       : std::make_shared<Model>(runtime, config.model_window, config.run);
+                       ? models->pair->another_lane()
+                       : std::make_unique<Model>(runtime, config.model_window, config.run);
   require_kind(*models->window, models->window->contract().kind == Kind::kMultiview, "windows",
                "a model of kind multiview, by itself or besides the one for pairs");
 }
@@ -39,8 +42,10 @@ void warm_up(const Config& config, bool views_shared, Models* models) {
   budget.bytes = config.run.memory_bytes;
   if (!views_shared) budget.kept_bytes = kSpareViews * models->pair->view_bytes();
   for (const auto& encoder : models->encoders) encoder->warm_up(budget);
-  if (models->pair != models->window) models->pair->warm_up(kPairViews, kPairViews, budget);
-  budget.kept_bytes += kSpareViews * models->window->view_bytes();
+  models->pair->warm_up(kPairViews, kPairViews, budget);
+  // A pair may be inferred while a window is.
+  budget.kept_bytes += models->pair->costs().front().bytes;
+  budget.kept_bytes += kSpareWindowViews * models->window->view_bytes();
   budget.kept_bytes_per_view = models->window->view_bytes();
   models->window->warm_up(kPairViews, config.window_size, budget);
   models->window_size = std::min(config.window_size, models->window->max_views());
@@ -58,8 +63,8 @@ void tell(const Config& config, const Runtime& runtime, Models* models) {
     notes.push_back(licence_line(model.contract()));
     notes.push_back(cost_line(model.contract(), "", model.costs()));
   };
-  tell_model(*models->pair);
-  if (models->window != models->pair) tell_model(*models->window);
+  tell_model(models->window->same_network(*models->pair) ? *models->window : *models->pair);
+  if (!models->window->same_network(*models->pair)) tell_model(*models->window);
   for (const auto& encoder : models->encoders) {
     notes.push_back(cost_line(encoder->contract(), " encoder", {encoder->cost()}));
   }
@@ -73,8 +78,7 @@ void tell(const Config& config, const Runtime& runtime, Models* models) {
 }  // namespace
 
 int64_t Models::bytes() const {
-  int64_t sum = pair->bytes() + window_views->bytes();
-  if (window != pair) sum += window->bytes();
+  int64_t sum = pair->bytes() + window->bytes() + window_views->bytes();
   if (pair_views != window_views) sum += pair_views->bytes();
   for (const auto& encoder : encoders) sum += encoder->bytes();
   return sum;
@@ -92,11 +96,11 @@ Models load_models(const Config& config) {
     throw OnnxError(UNISIM_ONNX_BAD_CONFIG,
                     "onnx.model_encoder: no model takes the features of an encoder; leave it out");
   }
-  const bool views_shared =
-      models.pair == models.window || (pair_encoder != nullptr && pair_encoder == window_encoder);
+  const bool views_shared = models.pair->same_network(*models.window) ||
+                            (pair_encoder != nullptr && pair_encoder == window_encoder);
   warm_up(config, views_shared, &models);
   models.window_views =
-      make_views(*models.window, window_encoder, models.window_size + kSpareViews);
+      make_views(*models.window, window_encoder, models.window_size + kSpareWindowViews);
   models.pair_views =
       views_shared ? models.window_views : make_views(*models.pair, pair_encoder, kSpareViews);
   tell(config, *runtime, &models);

@@ -15,7 +15,7 @@ namespace unisim::onnx {
 
 struct Models {
   std::shared_ptr<Model> pair;
-  std::shared_ptr<Model> window;                   ///< may be the same
+  std::shared_ptr<Model> window;                   ///< its network may be the same
   std::vector<std::shared_ptr<Encoder>> encoders;  ///< of split models
   std::shared_ptr<Views> pair_views;
   std::shared_ptr<Views> window_views;  ///< the same for one model or one encoder

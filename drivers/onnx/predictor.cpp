@@ -21,6 +21,13 @@ namespace {
 // Runs that fail one after another mean that the device is gone, not that one input was bad.
 constexpr int32_t kMaxFailures = 3;
 
+/// What one group of functions changes: the groups run beside each other.
+struct Lane {
+  int32_t failures = 0;  // of predictions, in a row
+  double focal_px = 0;
+  std::string message;
+};
+
 struct OnnxPredictor {
   unisim_predictor table{};  // first: the table's address is the predictor's
   Config config;
@@ -31,11 +38,10 @@ struct OnnxPredictor {
   unisim_image shape{};  // every image's size
   int64_t last_keyframe_frame = -1;
   int32_t keyframes = 0;
-  int32_t failures = 0;         // of predictions, in a row
   int32_t encode_failures = 0;  // of keyframes, in a row
+  Lane front;
+  Lane back;
   int64_t windows = 0;
-  double focal_px = 0;
-  std::string message;
 };
 
 OnnxPredictor* self(unisim_predictor* predictor) {
@@ -47,14 +53,14 @@ const OnnxPredictor* self(const unisim_predictor* predictor) {
 
 /// Runs `body`; nothing thrown below crosses the C interface.
 template <typename Body>
-int guarded(unisim_predictor* predictor, Body&& body) {
+int guarded(unisim_predictor* predictor, Lane OnnxPredictor::* lane, Body&& body) {
   OnnxPredictor* me = self(predictor);
   try {
     return body(me);
   } catch (const std::bad_alloc&) {
-    me->message = "out of memory; take a model with a smaller input or smaller windows";
+    (me->*lane).message = "out of memory; take a model with a smaller input or smaller windows";
   } catch (const std::exception& error) {
-    me->message = error.what();
+    (me->*lane).message = error.what();
   }
   return UNISIM_PREDICTION_FAILED;
 }
@@ -80,18 +86,18 @@ void take_shape(OnnxPredictor* me, const unisim_image& image) {
 
 bool accept_image(OnnxPredictor* me, const unisim_image& image) {
   if (image.data == nullptr || image.width < 1 || image.height < 1) {
-    me->message = "image is empty; frame left out";
+    me->front.message = "image is empty; frame left out";
     return false;
   }
   if (image.format != UNISIM_PIXEL_GRAY8 && image.format != UNISIM_PIXEL_BGR8) {
-    me->message =
+    me->front.message =
         "pixel format " + std::to_string(image.format) + " is neither gray nor BGR; frame left out";
     return false;
   }
   if (me->pair == nullptr) take_shape(me, image);
   if (image.width != me->shape.width || image.height != me->shape.height) {
-    me->message = "image size changed from " + size_text(me->shape) + " to " + size_text(image) +
-                  "; frame left out";
+    me->front.message = "image size changed from " + size_text(me->shape) + " to " +
+                        size_text(image) + "; frame left out";
     return false;
   }
   return true;
@@ -99,7 +105,7 @@ bool accept_image(OnnxPredictor* me, const unisim_image& image) {
 
 int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motion* motion) {
   *motion = {-1.0, -1.0, 0};
-  return guarded(predictor, [&](OnnxPredictor* me) {
+  return guarded(predictor, &OnnxPredictor::front, [&](OnnxPredictor* me) {
     if (!accept_image(me, frame->image)) return UNISIM_PREDICTION_REJECTED;
     // A network needs no motion to see depth, and says nothing of it before it runs: a fixed beat.
     const int64_t gap = frame->index - me->last_keyframe_frame;
@@ -110,9 +116,9 @@ int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motio
 }
 
 int keyframe(unisim_predictor* predictor, const unisim_frame* frame, int32_t id) {
-  return guarded(predictor, [&](OnnxPredictor* me) {
+  return guarded(predictor, &OnnxPredictor::front, [&](OnnxPredictor* me) {
     if (me->pair == nullptr || id != me->keyframes || frame->image.data == nullptr) {
-      me->message = "keyframe " + std::to_string(id) + " came out of order or without image";
+      me->front.message = "keyframe " + std::to_string(id) + " came out of order or without image";
       return UNISIM_PREDICTION_FAILED;
     }
     ++me->keyframes;
@@ -125,29 +131,29 @@ int keyframe(unisim_predictor* predictor, const unisim_frame* frame, int32_t id)
     }
     me->encode_failures = answer.run_failed ? me->encode_failures + 1 : 0;
     if (me->encode_failures < kMaxFailures) return UNISIM_PREDICTION_OK;
-    me->message = std::move(answer.problem);
+    me->front.message = std::move(answer.problem);
     return UNISIM_PREDICTION_FAILED;
   });
 }
 
 template <typename AnyRole>
-int predict(OnnxPredictor* me, AnyRole* role, const int32_t* ids, int32_t count) {
+int predict(Lane* lane, AnyRole* role, const int32_t* ids, int32_t count) {
   if (role == nullptr) return UNISIM_PREDICTION_PENDING;
   Answer answer = role->predict(ids, count);
   if (answer.problem.empty()) {
-    me->failures = 0;
-    me->focal_px = role->outputs().focal_px();
+    lane->failures = 0;
+    lane->focal_px = role->outputs().focal_px();
     return UNISIM_PREDICTION_OK;
   }
-  me->message = std::move(answer.problem);
-  me->failures = answer.run_failed ? me->failures + 1 : 0;
-  return me->failures < kMaxFailures ? UNISIM_PREDICTION_REJECTED : UNISIM_PREDICTION_FAILED;
+  lane->message = std::move(answer.problem);
+  lane->failures = answer.run_failed ? lane->failures + 1 : 0;
+  return lane->failures < kMaxFailures ? UNISIM_PREDICTION_REJECTED : UNISIM_PREDICTION_FAILED;
 }
 
 int two_view(unisim_predictor* predictor, int32_t i, int32_t j, unisim_pair_prediction* out) {
-  return guarded(predictor, [&](OnnxPredictor* me) {
+  return guarded(predictor, &OnnxPredictor::front, [&](OnnxPredictor* me) {
     const int32_t ids[2] = {i, j};
-    const int status = predict(me, me->pair.get(), ids, 2);
+    const int status = predict(&me->front, me->pair.get(), ids, 2);
     if (status == UNISIM_PREDICTION_PENDING) return status;
     me->refused_pairs->settle(j, status != UNISIM_PREDICTION_OK);
     if (status != UNISIM_PREDICTION_OK) return status;
@@ -159,14 +165,14 @@ int two_view(unisim_predictor* predictor, int32_t i, int32_t j, unisim_pair_pred
 
 int multi_view(unisim_predictor* predictor, const int32_t* ids, int32_t count,
                unisim_window_prediction* out) {
-  return guarded(predictor, [&](OnnxPredictor* me) {
+  return guarded(predictor, &OnnxPredictor::back, [&](OnnxPredictor* me) {
     if (count > me->models.window_size) {
-      me->message = std::to_string(count) + " views are more than the " +
-                    std::to_string(me->models.window_size) +
-                    " that model and memory allow; lower session.window_size";
+      me->back.message = std::to_string(count) + " views are more than the " +
+                         std::to_string(me->models.window_size) +
+                         " that model and memory allow; lower session.window_size";
       return UNISIM_PREDICTION_REJECTED;
     }
-    const int status = predict(me, me->window.get(), ids, count);
+    const int status = predict(&me->back, me->window.get(), ids, count);
     if (status != UNISIM_PREDICTION_OK) return status;
     const WindowRole& window = *me->window;
     *out = {window.count(),
@@ -184,14 +190,18 @@ int multi_view(unisim_predictor* predictor, const int32_t* ids, int32_t count,
 void info(unisim_predictor* predictor, unisim_predictor_info* out) {
   const OnnxPredictor* me = self(predictor);
   *out = {};
-  out->focal_px = me->focal_px;
-  out->initialised = me->focal_px > 0 ? 1 : 0;
+  out->focal_px = me->back.focal_px > 0 ? me->back.focal_px : me->front.focal_px;
+  out->initialised = out->focal_px > 0 ? 1 : 0;
   out->state_bytes = me->models.bytes();
   if (me->pair == nullptr) return;
   out->state_bytes += me->pair->outputs().bytes() + me->window->outputs().bytes();
 }
 
-const char* message(unisim_predictor* predictor) { return self(predictor)->message.c_str(); }
+const char* message(unisim_predictor* predictor) { return self(predictor)->front.message.c_str(); }
+
+const char* window_message(unisim_predictor* predictor) {
+  return self(predictor)->back.message.c_str();
+}
 
 void destroy(unisim_predictor* predictor) { delete self(predictor); }
 
@@ -207,7 +217,9 @@ unisim_predictor* unisim_onnx_create(const unisim_onnx_config* config, int32_t* 
     made->models = o::load_models(made->config);
     made->refused_pairs = std::make_unique<o::RefusedPairs>(made->models.window_views->capacity());
     unisim_predictor& table = made->table;
+    table.struct_size = sizeof table;
     table.name = "onnx";
+    table.concurrent_windows = 1;
     table.needs_images = 1;
     table.observe = o::observe;
     table.keyframe = o::keyframe;
@@ -215,6 +227,7 @@ unisim_predictor* unisim_onnx_create(const unisim_onnx_config* config, int32_t* 
     table.multi_view = o::multi_view;
     table.info = o::info;
     table.message = o::message;
+    table.window_message = o::window_message;
     table.destroy = o::destroy;
     return &made.release()->table;
   });

@@ -5,6 +5,7 @@
 namespace unisim::onnx {
 
 void RefusedPairs::settle(int32_t j, bool refused) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   newest_ = j;
   refused_[static_cast<size_t>(j) % refused_.size()] = refused ? 1 : 0;
 }
@@ -15,9 +16,10 @@ bool RefusedPairs::pair_refused(int32_t j) const {
   return refused_[static_cast<size_t>(j) % refused_.size()] != 0;
 }
 
-bool RefusedPairs::blamed(int32_t keyframe, Blame blame) const {
+bool RefusedPairs::blamed(int32_t keyframe, Blame blame, int32_t newest) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
   const bool before = pair_refused(keyframe);
-  const bool after = pair_refused(keyframe + 1);
+  const bool after = keyframe < newest && pair_refused(keyframe + 1);
   if (blame == Blame::kBothPairs) return before && after;
   return blame == Blame::kFirst ? after : before;
 }

@@ -4,12 +4,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 namespace unisim::onnx {
 
 /// One image can upset a network so that no view of its window is of use. Its pairs are refused for
 /// the same reason, which cuts the map in two there; only a window over the cut joins it again.
+/// One thread settles while another asks.
 class RefusedPairs {
  public:
   /// @param capacity newest keyframes whose pairs are remembered
@@ -27,11 +29,14 @@ class RefusedPairs {
   };
   static constexpr Blame kBlames[] = {Blame::kBothPairs, Blame::kFirst, Blame::kSecond};
 
-  bool blamed(int32_t keyframe, Blame blame) const;
+  /// @param newest keyframe of the window: what later pairs say does not count, so that the answer
+  ///               is the same whenever it is asked for
+  bool blamed(int32_t keyframe, Blame blame, int32_t newest) const;
 
  private:
   bool pair_refused(int32_t j) const;
 
+  mutable std::mutex mutex_;
   int32_t newest_ = 0;                  // settled
   std::vector<unsigned char> refused_;  // by j, a ring
 };

@@ -8,10 +8,8 @@ namespace unisim::onnx {
 
 Answer Role::predict(const int32_t* ids, int32_t count) {
   for (int32_t view = 0; view < count; ++view) {
-    const float* stored = nullptr;
-    std::string problem = views_->find(ids[view], &stored);
+    std::string problem = views_->copy(ids[view], model_->input(view));
     if (!problem.empty()) return {std::move(problem), false};
-    std::copy_n(stored, model_->view_floats(), model_->input(view));
   }
   const std::string failure = model_->run(count);
   if (!failure.empty()) return {model_->path() + ": " + failure, true};

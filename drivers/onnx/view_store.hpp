@@ -17,6 +17,7 @@ class ViewStore {
   float* add(int32_t id);
   /// NULL when the keyframe is not held (any more).
   const float* find(int32_t id) const;
+  int64_t view_floats() const { return view_floats_; }
   int64_t bytes() const { return static_cast<int64_t>(floats_.size() * sizeof(float)); }
 
  private:

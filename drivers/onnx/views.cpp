@@ -19,6 +19,7 @@ void Views::set_image_size(int32_t width, int32_t height) {
 }
 
 Answer Views::add(int32_t id, const unisim_image& image) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   float* const view = store_.add(id);
   if (encoder_ == nullptr) {
     preprocessor_->run(image, view);
@@ -33,11 +34,15 @@ Answer Views::add(int32_t id, const unisim_image& image) {
   return answer;
 }
 
-std::string Views::find(int32_t id, const float** view) const {
-  *view = store_.find(id);
-  if (*view == nullptr) return "keyframe " + std::to_string(id) + " is not kept any more";
+std::string Views::copy(int32_t id, float* view) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const float* const kept = store_.find(id);
+  if (kept == nullptr) return "keyframe " + std::to_string(id) + " is not kept any more";
   const std::string& problem = problems_[place(id)];
-  if (problem.empty()) return "";
+  if (problem.empty()) {
+    std::copy_n(kept, store_.view_floats(), view);
+    return "";
+  }
   return "keyframe " + std::to_string(id) + " could not be encoded: " + problem;
 }
 

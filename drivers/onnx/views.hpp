@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 namespace unisim::onnx {
 
 /// A ring of inputs: images brought to the model's size, or what its encoder makes of these, once.
+/// One thread adds while others copy.
 class Views {
  public:
   /// @param contract    of the model or of its encoder
@@ -32,7 +34,7 @@ class Views {
 
   /// @param[out] view the model's input
   /// @return "" or why there is none
-  std::string find(int32_t id, const float** view) const;
+  std::string copy(int32_t id, float* view) const;
 
   const Framing& framing() const { return preprocessor_->framing(); }
   const Encoder* encoder() const { return encoder_.get(); }
@@ -46,6 +48,7 @@ class Views {
   Contract contract_;
   std::shared_ptr<Encoder> encoder_;
   int32_t capacity_;
+  mutable std::mutex mutex_;
   ViewStore store_;
   std::vector<std::string> problems_;  // by place in the ring, "" where there is a view
   std::optional<Preprocessor> preprocessor_;

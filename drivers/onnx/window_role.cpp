@@ -20,7 +20,9 @@ Answer WindowRole::predict(const int32_t* ids, int32_t count) {
   const std::string reason = answer.problem;
   for (const RefusedPairs::Blame blame : RefusedPairs::kBlames) {
     if (answer.problem.empty() || answer.run_failed) return answer;
-    const auto blamed = [&](int32_t id) { return refused_pairs_->blamed(id, blame); };
+    const auto blamed = [&](int32_t id) {
+      return refused_pairs_->blamed(id, blame, ids[count - 1]);
+    };
     const auto end = std::remove_copy_if(ids, ids + count, ids_.begin(), blamed);
     count_ = static_cast<int32_t>(end - ids_.begin());
     if (count_ == count || count_ < kFewestViews) continue;

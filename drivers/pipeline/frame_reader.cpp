@@ -2,10 +2,23 @@
 // A thread that reads ahead of the tracking.
 #include "drivers/pipeline/frame_reader.hpp"
 
+#include <algorithm>
+#include <condition_variable>
 #include <cstring>
+#include <exception>
+#include <mutex>
+#include <vector>
 
 namespace unisim::pipeline {
 namespace {
+
+using std::chrono::milliseconds;
+
+// A raised flag is noticed after at most this long: shorter than people call a delay.
+constexpr milliseconds kSlice(20);
+// A source that is interrupted comes back at once; one that knows no interrupt may be half through
+// an image. Together with the rest, a program still ends within a second.
+constexpr milliseconds kFarewell(500);
 
 std::string size_text(const unisim_image& image) {
   return std::to_string(image.width) + "x" + std::to_string(image.height) +
@@ -16,93 +29,148 @@ bool same_shape(const unisim_image& a, const unisim_image& b) {
   return a.width == b.width && a.height == b.height && a.format == b.format;
 }
 
+std::string seconds_text(milliseconds time) {
+  const std::string text = std::to_string(static_cast<double>(time.count()) / 1000.0);
+  return text.substr(0, text.find('.') + 2);
+}
+
 }  // namespace
 
-FrameReader::FrameReader(unisim_source* source, int depth, bool decode)
-    : source_(source), decode_(decode), slots_(static_cast<size_t>(depth) + 1) {
-  thread_ = std::thread([this] { read_loop(); });
-}
+class FrameReader::Shared {
+ public:
+  Shared(unisim_source* source, int depth, bool decode)
+      : source_(source), decode_(decode), slots_(static_cast<size_t>(depth) + 1) {}
 
-FrameReader::~FrameReader() { stop(); }
-
-void FrameReader::stop() {
-  {
+  void read_loop();
+  const Item* next(const std::atomic<bool>* stop, milliseconds patience);
+  /// @return false when the thread is still inside the source
+  bool stop();
+  bool ended() const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    stopping_ = true;
+    return ended_;
   }
-  changed_.notify_all();
-  if (thread_.joinable()) thread_.join();
-}
+  const LatencyHistogram& decode_times() const { return decode_times_; }
 
-int FrameReader::queued() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return static_cast<int>(filled_);
-}
+ private:
+  struct Slot {
+    Item item;
+    std::vector<uint8_t> pixels;
+  };
 
-const FrameReader::Item& FrameReader::next() {
+  int read_one(size_t at);
+  void fill(Slot* slot);
+  void check(Slot* slot);
+  void take_pixels(Slot* slot);
+
+  unisim_source* source_;
+  bool decode_;
+  std::vector<Slot> slots_;
+  size_t head_ = 0;      // slot that next() gives out next
+  size_t filled_ = 0;    // slots the reader has filled and next() has not passed
+  bool in_use_ = false;  // slots_[head_ - 1] is still in the caller's hands
+  bool stopping_ = false;
+  bool ended_ = false;  // the thread has left the source for good
+  Item timed_out_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  LatencyHistogram decode_times_;
+  unisim_image first_{};  // shape every image must have
+  int64_t last_timestamp_ns_ = 0;
+  bool any_frame_ = false;
+};
+
+const FrameReader::Item* FrameReader::Shared::next(const std::atomic<bool>* stop,
+                                                   milliseconds patience) {
   std::unique_lock<std::mutex> lock(mutex_);
+  if (timed_out_.status == UNISIM_FRAME_FAILED) return &timed_out_;
   if (in_use_) {
     const Item& given = slots_[(head_ + slots_.size() - 1) % slots_.size()].item;
-    if (given.status == UNISIM_FRAME_END || given.status == UNISIM_FRAME_FAILED) return given;
+    if (given.status == UNISIM_FRAME_END || given.status == UNISIM_FRAME_FAILED) return &given;
     in_use_ = false;
     changed_.notify_all();
   }
-  changed_.wait(lock, [this] { return filled_ > 0; });
+  const auto start = std::chrono::steady_clock::now();
+  while (!changed_.wait_for(lock, kSlice, [this] { return filled_ > 0; })) {
+    if (stop != nullptr && stop->load()) return nullptr;
+    if (patience.count() == 0 || std::chrono::steady_clock::now() - start < patience) continue;
+    timed_out_.status = UNISIM_FRAME_FAILED;
+    timed_out_.message = std::string(source_->format) + " source: no frame for " +
+                         seconds_text(patience) +
+                         " s; look at where the frames come from, or raise pipeline.patience_s";
+    return &timed_out_;
+  }
   const Item& item = slots_[head_].item;
   head_ = (head_ + 1) % slots_.size();
   --filled_;
   in_use_ = true;
   changed_.notify_all();
-  return item;
+  return &item;
 }
 
-void FrameReader::read_loop() {
+bool FrameReader::Shared::stop() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  stopping_ = true;
+  changed_.notify_all();
+  if (!ended_ && source_->interrupt != nullptr) source_->interrupt(source_);
+  return changed_.wait_for(lock, kFarewell, [this] { return ended_; });
+}
+
+void FrameReader::Shared::read_loop() {
   size_t tail = 0;
   int status = UNISIM_FRAME_OK;
+  std::unique_lock<std::mutex> lock(mutex_);
   while (status == UNISIM_FRAME_OK || status == UNISIM_FRAME_BAD) {
-    {
-      std::unique_lock<std::mutex> lock(mutex_);
-      changed_.wait(lock,
-                    [this] { return stopping_ || filled_ + (in_use_ ? 1 : 0) < slots_.size(); });
-      if (stopping_) return;
-    }
-    Slot& slot = slots_[tail];
-    fill(slot);
-    status = slot.item.status;
+    changed_.wait(lock,
+                  [this] { return stopping_ || filled_ + (in_use_ ? 1 : 0) < slots_.size(); });
+    if (stopping_) break;
+    lock.unlock();
+    status = read_one(tail);
     tail = (tail + 1) % slots_.size();
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      ++filled_;
-    }
+    lock.lock();
+    ++filled_;
     changed_.notify_all();
   }
+  ended_ = true;
+  changed_.notify_all();
 }
 
-void FrameReader::fill(Slot& slot) {
-  slot.item.message.clear();
+/// No exception leaves the thread: it would end the program.
+int FrameReader::Shared::read_one(size_t at) {
+  Slot& slot = slots_[at];
+  try {
+    fill(&slot);
+  } catch (const std::exception& error) {
+    slot.item.status = UNISIM_FRAME_FAILED;
+    slot.item.message = std::string(source_->format) + " source: " + error.what();
+  }
+  return slot.item.status;
+}
+
+void FrameReader::Shared::fill(Slot* slot) {
+  slot->item.message.clear();
   {
     const ScopedLatency timer(decode_times_);
-    slot.item.status = source_->next_frame(source_, decode_ ? 1 : 0, &slot.item.frame);
+    slot->item.status = source_->next_frame(source_, decode_ ? 1 : 0, &slot->item.frame);
   }
-  if (slot.item.status == UNISIM_FRAME_OK)
+  if (slot->item.status == UNISIM_FRAME_OK)
     check(slot);
-  else if (slot.item.status != UNISIM_FRAME_END)
-    slot.item.message = source_->message(source_);
+  else if (slot->item.status != UNISIM_FRAME_END)
+    slot->item.message = source_->message(source_);
 }
 
-void FrameReader::check(Slot& slot) {
-  const unisim_frame& frame = slot.item.frame;
+void FrameReader::Shared::check(Slot* slot) {
+  const unisim_frame& frame = slot->item.frame;
   const std::string where = "frame " + std::to_string(frame.index);
   if (any_frame_ && frame.timestamp_ns <= last_timestamp_ns_) {
-    slot.item.status = UNISIM_FRAME_BAD;
-    slot.item.message = where + ": time stamp is not after the one before; frame skipped";
+    slot->item.status = UNISIM_FRAME_BAD;
+    slot->item.message = where + ": time stamp is not after the one before; frame skipped";
     return;
   }
   if (decode_) {
     if (any_frame_ && !same_shape(first_, frame.image)) {
-      slot.item.status = UNISIM_FRAME_BAD;
-      slot.item.message = where + ": image is " + size_text(frame.image) + ", the first one was " +
-                          size_text(first_) + "; frame skipped";
+      slot->item.status = UNISIM_FRAME_BAD;
+      slot->item.message = where + ": image is " + size_text(frame.image) + ", the first one was " +
+                           size_text(first_) + "; frame skipped";
       return;
     }
     if (!any_frame_) first_ = frame.image;
@@ -112,17 +180,41 @@ void FrameReader::check(Slot& slot) {
   last_timestamp_ns_ = frame.timestamp_ns;
 }
 
-void FrameReader::take_pixels(Slot& slot) {
-  unisim_image& image = slot.item.frame.image;
+void FrameReader::Shared::take_pixels(Slot* slot) {
+  unisim_image& image = slot->item.frame.image;
   const size_t row = static_cast<size_t>(image.width) * static_cast<size_t>(image.format);
-  slot.pixels.resize(row * static_cast<size_t>(image.height));
+  slot->pixels.resize(row * static_cast<size_t>(image.height));
   for (int32_t y = 0; y < image.height; ++y) {
     const size_t line = static_cast<size_t>(y);
-    std::memcpy(slot.pixels.data() + line * row,
+    std::memcpy(slot->pixels.data() + line * row,
                 image.data + line * static_cast<size_t>(image.stride), row);
   }
-  image.data = slot.pixels.data();
+  image.data = slot->pixels.data();
   image.stride = static_cast<int32_t>(row);
+}
+
+FrameReader::FrameReader(unisim_source* source, int depth, bool decode)
+    : shared_(std::make_shared<Shared>(source, depth, decode)),
+      thread_([shared = shared_] { shared->read_loop(); }) {}
+
+FrameReader::~FrameReader() { stop(); }
+
+const FrameReader::Item* FrameReader::next(const std::atomic<bool>* stop, milliseconds patience) {
+  return shared_->next(stop, patience);
+}
+
+void FrameReader::stop() {
+  if (!thread_.joinable()) return;
+  if (shared_->stop())
+    thread_.join();
+  else
+    thread_.detach();
+}
+
+bool FrameReader::holds_source() const { return !shared_->ended(); }
+
+LatencyHistogram FrameReader::decode_times() const {
+  return holds_source() ? LatencyHistogram() : shared_->decode_times();
 }
 
 }  // namespace unisim::pipeline

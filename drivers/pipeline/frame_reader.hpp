@@ -2,12 +2,12 @@
 // A thread that reads ahead of the tracking: source -> bounded queue of decoded frames.
 #pragma once
 
-#include <condition_variable>
+#include <atomic>
+#include <chrono>
 #include <cstdint>
-#include <mutex>
+#include <memory>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "drivers/pipeline/latency_histogram.hpp"
 #include "drivers/source.h"
@@ -18,7 +18,8 @@ namespace unisim::pipeline {
 /// order, so the result does not depend on the timing of the two threads.
 class FrameReader {
  public:
-  /// @param source borrowed until destruction, used by the reader's thread only
+  /// @param source borrowed, used by the reader's thread only; until destruction, or for ever where
+  ///               holds_source() says so then
   /// @param depth  frames read ahead, >= 1
   /// @param decode false: frames come without pixels
   FrameReader(unisim_source* source, int depth, bool decode);
@@ -34,39 +35,22 @@ class FrameReader {
   };
 
   /// Next answer, waiting for it. After END or FAILED the same answer again.
-  const Item& next();
+  /// @param stop     NULL, or a flag that ends the wait
+  /// @param patience a source that gives nothing for so long has failed; 0: no end to it
+  /// @return NULL once `stop` is raised
+  const Item* next(const std::atomic<bool>* stop, std::chrono::milliseconds patience);
 
-  /// Answers waiting in the queue.
-  int queued() const;
-
-  /// Stops reading; safe to call more than once. The times are complete afterwards.
+  /// Stops reading, interrupts the source and waits for it a little; safe to call more than once.
   void stop();
-  const LatencyHistogram& decode_times() const { return decode_times_; }
+  /// After stop(): the source has not come back from its last call. It must not be destroyed.
+  bool holds_source() const;
+  /// Complete after stop(), unless the source is held.
+  LatencyHistogram decode_times() const;
 
  private:
-  struct Slot {
-    Item item;
-    std::vector<uint8_t> pixels;
-  };
+  class Shared;  // with the thread, which outlives the reader where a source does not come back
 
-  void read_loop();
-  void fill(Slot& slot);
-  void check(Slot& slot);
-  void take_pixels(Slot& slot);
-
-  unisim_source* source_;
-  bool decode_;
-  std::vector<Slot> slots_;
-  size_t head_ = 0;      // slot that next() gives out next
-  size_t filled_ = 0;    // slots the reader has filled and next() has not passed
-  bool in_use_ = false;  // slots_[head_ - 1] is still in the caller's hands
-  bool stopping_ = false;
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  LatencyHistogram decode_times_;
-  unisim_image first_{};  // shape every image must have
-  int64_t last_timestamp_ns_ = 0;
-  bool any_frame_ = false;
+  std::shared_ptr<Shared> shared_;
   std::thread thread_;
 };
 

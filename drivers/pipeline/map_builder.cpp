@@ -5,19 +5,14 @@
 #include <algorithm>
 
 namespace unisim::pipeline {
-namespace {
-
-std::string request_name(const unisim_request& request) {
-  const std::string first = std::to_string(request.keyframe_ids[0]);
-  const std::string last = std::to_string(request.keyframe_ids[request.count - 1]);
-  return request.kind == UNISIM_REQUEST_PAIR ? "pair " + first + "," + last
-                                             : "window of keyframes " + first + ".." + last;
-}
-
-}  // namespace
 
 MapBuilder::MapBuilder(const Parts& parts, size_t max_submaps)
-    : parts_(parts), tokens_(max_submaps, {-1, -1}), wide_windows_(parts.session) {}
+    : parts_(parts), tokens_(max_submaps, {-1, -1}), wide_windows_(parts.session) {
+  if (parts.predictor->concurrent_windows == 0) return;
+  lane_ = std::make_unique<BackLane>(parts.predictor, parts.window_size);
+  report_.beside = true;
+  report_.lag = std::clamp(parts.window_step / 2, 1, UNISIM_WINDOW_LAG / 2);
+}
 
 Step MapBuilder::session_failed(const char* call, unisim_status status) {
   if (status == UNISIM_ERR_CAPACITY) return Step::kCapacity;
@@ -28,6 +23,7 @@ Step MapBuilder::session_failed(const char* call, unisim_status status) {
 Step MapBuilder::add_keyframe(const unisim_frame& frame, int32_t* id) {
   const unisim_status status = parts_.session->add_keyframe(frame.timestamp_ns, id);
   if (status != UNISIM_OK) return session_failed("unisim_add_keyframe", status);
+  newest_ = *id;
   const ScopedLatency timer(parts_.times->keyframe);
   const int answer = parts_.predictor->keyframe(parts_.predictor, &frame, *id);
   return answer == UNISIM_PREDICTION_FAILED ? Step::kPredictorFailed : Step::kOk;
@@ -100,12 +96,28 @@ Step MapBuilder::serve_window(const unisim_request& request, bool* pending) {
     answer = parts_.predictor->multi_view(parts_.predictor, request.keyframe_ids, request.count,
                                           &window);
   }
-  *pending = answer == UNISIM_PREDICTION_PENDING;
+  const bool refused = answer == UNISIM_PREDICTION_REJECTED || answer == UNISIM_PREDICTION_FAILED;
+  const std::string reason = refused ? window_message() : "";
+  return take_answer(request, answer, window, reason, pending);
+}
+
+std::string MapBuilder::window_message() const {
+  const bool own = parts_.predictor->window_message != nullptr;
+  return own ? parts_.predictor->window_message(parts_.predictor) : predictor_message();
+}
+
+Step MapBuilder::back_failed(const std::string& why) {
+  failure_ = why;
+  return Step::kPredictorFailed;
+}
+
+Step MapBuilder::take_answer(const unisim_request& request, int status,
+                             const unisim_window_prediction& window, const std::string& reason,
+                             bool* pending) {
+  *pending = status == UNISIM_PREDICTION_PENDING;
   if (*pending) return Step::kOk;
-  if (answer == UNISIM_PREDICTION_FAILED) return Step::kPredictorFailed;
-  if (answer != UNISIM_PREDICTION_OK) {
-    return reject(request, MessageKind::kWindowRejected, predictor_message());
-  }
+  if (status == UNISIM_PREDICTION_FAILED) return back_failed(reason);
+  if (status != UNISIM_PREDICTION_OK) return reject(request, MessageKind::kWindowRejected, reason);
   if (window.remark != nullptr) {
     parts_.messages->say(MessageKind::kWindowReduced, request_name(request) + ": " + window.remark);
   }
@@ -135,7 +147,7 @@ Step MapBuilder::serve_revisions() {
   for (;;) {
     unisim_window_revision revision{};
     const int answer = parts_.predictor->next_revision(parts_.predictor, &revision);
-    if (answer == UNISIM_PREDICTION_FAILED) return Step::kPredictorFailed;
+    if (answer == UNISIM_PREDICTION_FAILED) return back_failed(window_message());
     if (answer == UNISIM_PREDICTION_PENDING) break;
     if (answer != UNISIM_PREDICTION_OK) continue;
     take_revision(revision);
@@ -167,15 +179,20 @@ Step MapBuilder::serve_wide_windows() {
     unisim_window_prediction window{};
     const int answer =
         parts_.predictor->next_wide_window(parts_.predictor, parts_.window_size, &window);
-    if (answer == UNISIM_PREDICTION_FAILED) return Step::kPredictorFailed;
+    if (answer == UNISIM_PREDICTION_FAILED) return back_failed(window_message());
     if (answer == UNISIM_PREDICTION_PENDING) break;
     if (answer != UNISIM_PREDICTION_OK) continue;
     bool taken = false;
-    const unisim_status status = wide_windows_.take(window, &taken);
-    if (status != UNISIM_OK) return session_failed("unisim_add_loop", status);
+    const Step step = take_wide_window(window, &taken);
+    if (step != Step::kOk) return step;
     changed = changed || taken;
   }
   return changed ? optimize(1) : Step::kOk;
+}
+
+Step MapBuilder::take_wide_window(const unisim_window_prediction& window, bool* taken) {
+  const unisim_status status = wide_windows_.take(window, taken);
+  return status == UNISIM_OK ? Step::kOk : session_failed("unisim_add_loop", status);
 }
 
 void MapBuilder::tell_retired() {

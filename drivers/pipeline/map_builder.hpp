@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "drivers/pipeline/back_lane.hpp"
 #include "drivers/pipeline/latency_histogram.hpp"
 #include "drivers/pipeline/listener.hpp"
 #include "drivers/pipeline/messages.hpp"
@@ -24,6 +26,17 @@ enum class Step {
   kSessionFailed,    ///< the session refused a call that must work
 };
 
+/// What the lane that asks for windows beside the tracking did.
+struct LaneReport {
+  bool beside = false;       ///< false: windows are asked for between two frames
+  int32_t lag = 0;           ///< keyframes after which an answer is taken; in realtime as it comes
+  int64_t asked = 0;         ///< windows
+  int64_t late = 0;          ///< taken more than `lag` keyframes after they were asked for
+  int64_t dropped = 0;       ///< given up for newer ones, or too late for the session
+  int32_t most_waiting = 0;  ///< windows that stood in the queue at once
+  double waited_ms = 0.0;    ///< tracking stood still for an answer that was due
+};
+
 /// Serves the requests of one session from one predictor. Owns neither.
 class MapBuilder {
  public:
@@ -34,7 +47,12 @@ class MapBuilder {
     Messages* messages;
     const std::vector<Listener*>* listeners;
     int32_t window_size;  ///< views a submap can have
+    int32_t window_step;  ///< keyframes from one window to the next
+    bool realtime;        ///< answers of the lane are taken when they are there
   };
+
+  /// Windows that may wait for the lane in a realtime run; for a newer one the oldest is dropped.
+  static constexpr int32_t kMostWaiting = 2;
 
   /// @param max_submaps newest windows whose revisions can be followed
   MapBuilder(const Parts& parts, size_t max_submaps);
@@ -45,14 +63,13 @@ class MapBuilder {
   /// Serves pair requests until there is none or one is not known yet.
   Step serve_pairs();
 
-  /// The same for windows; the graph is optimised when one came in.
-  Step serve_windows();
+  /// Windows, what was measured anew and wide windows; the graph is optimised when one came in.
+  /// From the predictor at once, or, where it allows that, from the lane beside the tracking.
+  Step serve_back();
 
-  /// Takes windows that were measured anew; the graph is optimised when one came in.
-  Step serve_revisions();
-
-  /// Takes wide windows; the graph is optimised when one came in.
-  Step serve_wide_windows();
+  /// Ends the lane: waits for the answer in work and takes it where the run goes on. Afterwards
+  /// nothing runs beside the caller's thread.
+  Step leave_lane(bool goes_on);
 
   /// Tells the listeners what has left the sliding window. To be called after each keyframe: what
   /// is not read in time the session loses.
@@ -65,22 +82,41 @@ class MapBuilder {
   /// Last keyframe whose pair was added or rejected; 0 before the first.
   int32_t last_settled() const { return last_settled_; }
 
+  const LaneReport& lane_report() const { return report_; }
+
+  /// Why a step said kPredictorFailed.
+  std::string failure() const { return failure_.empty() ? predictor_message() : failure_; }
+
  private:
   struct TokenOfSubmap {
     int64_t token;
     int32_t submap_id;
   };
 
+  Step serve_windows();
+  Step serve_revisions();
+  Step serve_wide_windows();
   Step serve_pair(const unisim_request& request, bool* pending);
   Step serve_window(const unisim_request& request, bool* pending);
+  Step take_answer(const unisim_request& request, int status,
+                   const unisim_window_prediction& window, const std::string& reason,
+                   bool* pending);
   Step take_window(const unisim_request& request, const unisim_window_prediction& window,
                    bool* pending);
+  Step take_wide_window(const unisim_window_prediction& window, bool* taken);
+  void begin_turn();
+  bool turn_is_due() const;
+  Step end_turn();
+  Step take_turn(const BackAnswer& answer);
+  bool drop_oldest_windows(unisim_request* oldest);
   void take_revision(const unisim_window_revision& revision);
   Step reject(const unisim_request& request, MessageKind kind, const std::string& why);
   Step reject_open_pairs();
   bool next_request(uint32_t kind, unisim_request* request);
   Step optimize(int max_calls);
   Step session_failed(const char* call, unisim_status status);
+  Step back_failed(const std::string& why);
+  std::string window_message() const;
   std::string predictor_message() const { return parts_.predictor->message(parts_.predictor); }
 
   Parts parts_;
@@ -88,6 +124,12 @@ class MapBuilder {
   size_t next_token_ = 0;
   WideWindows wide_windows_;
   int32_t last_settled_ = 0;
+  int32_t newest_ = -1;  // keyframe
+  std::unique_ptr<BackLane> lane_;
+  unisim_request asked_{};  // of the turn in work; count 0: no window
+  int32_t asked_at_ = 0;    // newest keyframe then
+  LaneReport report_;
+  std::string failure_;
 };
 
 }  // namespace unisim::pipeline

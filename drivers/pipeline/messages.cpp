@@ -4,6 +4,13 @@
 
 namespace unisim::pipeline {
 
+std::string request_name(const unisim_request& request) {
+  const std::string first = std::to_string(request.keyframe_ids[0]);
+  const std::string last = std::to_string(request.keyframe_ids[request.count - 1]);
+  return request.kind == UNISIM_REQUEST_PAIR ? "pair " + first + "," + last
+                                             : "window of keyframes " + first + ".." + last;
+}
+
 void Messages::say(MessageKind kind, const std::string& line) {
   if (++counts_[static_cast<size_t>(kind)] <= kTold) say(line);
 }
@@ -18,6 +25,7 @@ void Messages::tell_counts() {
                                                       "rejected pairs",
                                                       "rejected windows",
                                                       "windows taken in part",
+                                                      "windows dropped",
                                                       "predictions refused as invalid",
                                                       "optimisations without result"};
   for (size_t kind = 0; kind < kKinds; ++kind) {

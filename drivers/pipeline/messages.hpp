@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drivers/pipeline/listener.hpp"
+#include "unisim/unisim.h"
 
 namespace unisim::pipeline {
 
@@ -17,9 +18,13 @@ enum class MessageKind {
   kPairRejected,
   kWindowRejected,
   kWindowReduced,
+  kWindowDropped,
   kInvalid,
   kSolver
 };
+
+/// "pair 3,4" or "window of keyframes 0..15".
+std::string request_name(const unisim_request& request);
 
 class Messages {
  public:
@@ -39,7 +44,7 @@ class Messages {
 
  private:
   static constexpr int64_t kTold = 5;
-  static constexpr size_t kKinds = 7;
+  static constexpr size_t kKinds = 8;
 
   const std::vector<Listener*>& listeners_;
   std::array<int64_t, kKinds> counts_{};

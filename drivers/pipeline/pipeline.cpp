@@ -63,16 +63,37 @@ class Pipeline::Impl {
   int32_t next_live_ = 0;  // first keyframe whose live pose is not given out yet
 };
 
+namespace {
+
+/// Tables of programs built against an older header are refused, none is older than this one yet.
+Preparation check_tables(const unisim_source& source, const unisim_predictor& predictor) {
+  const auto refuse = [](const std::string& why) {
+    return Preparation{Preparation::Answer::kBadConfiguration, why};
+  };
+  const char* const kSizes = ": struct_size is not one this library knows; set it to sizeof";
+  if (source.struct_size < sizeof source) return refuse(std::string("source") + kSizes);
+  if (predictor.struct_size < sizeof predictor) return refuse(std::string("predictor") + kSizes);
+  if (predictor.concurrent_windows != 0 && predictor.window_message == nullptr) {
+    return refuse(std::string(predictor.name) +
+                  " predictor: concurrent_windows needs a window_message()");
+  }
+  return {};
+}
+
+}  // namespace
+
 Preparation Pipeline::Impl::prepare() {
-  Preparation preparation = session_.create(config_);
+  Preparation preparation = check_tables(*source_, *predictor_);
+  if (preparation.answer != Preparation::Answer::kReady) return preparation;
+  preparation = session_.create(config_);
   if (preparation.answer != Preparation::Answer::kReady) return preparation;
   // Windows start w - overlap keyframes apart; one shorter window may follow.
   const int32_t step = config_.window_size - config_.window_overlap;
   const int32_t windows = config_.max_keyframes / step + 2;
-  builder_ =
-      std::make_unique<MapBuilder>(MapBuilder::Parts{&session_, predictor_, &result_.times,
-                                                     &messages_, &listeners_, config_.window_size},
-                                   static_cast<size_t>(windows));
+  const MapBuilder::Parts parts = {&session_,  predictor_,       &result_.times,
+                                   &messages_, &listeners_,      config_.window_size,
+                                   step,       options_.realtime};
+  builder_ = std::make_unique<MapBuilder>(parts, static_cast<size_t>(windows));
   return preparation;
 }
 
@@ -89,6 +110,7 @@ const Result& Pipeline::Impl::run() {
   result_.progress.frames_total = source_->frame_count(source_);
   read_all();
   finish();
+  result_.lanes = builder_->lane_report();
   messages_.tell_counts();
   predictor_->info(predictor_, &result_.predictor);
   if (heap_watch_.count != nullptr) result_.heap_calls = heap_watch_.calls() - heap_calls;
@@ -100,14 +122,17 @@ const Result& Pipeline::Impl::run() {
 void Pipeline::Impl::read_all() {
   const bool decode = predictor_->needs_images != 0 || options_.decode_images;
   FrameReader reader(source_, std::max(options_.queue_frames, 1), decode);
+  const std::chrono::milliseconds patience(static_cast<int64_t>(1000.0 * options_.patience_s));
   for (;;) {
     if (stop_ != nullptr && stop_->load()) {
       end(Outcome::kStopped, "interrupted");
       break;
     }
-    if (!take(reader.next())) break;
+    const FrameReader::Item* item = reader.next(stop_, patience);
+    if (item != nullptr && !take(*item)) break;
   }
   reader.stop();
+  result_.source_held = reader.holds_source();
   result_.times.decode = reader.decode_times();
 }
 
@@ -153,9 +178,7 @@ bool Pipeline::Impl::track(const unisim_frame& frame) {
   if (!take_keyframe(frame)) return false;
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
   result_.times.track_total.add_ms(spent.count());
-  const bool goes_on = went_well(builder_->serve_windows()) &&
-                       went_well(builder_->serve_revisions()) &&
-                       went_well(builder_->serve_wide_windows());
+  const bool goes_on = went_well(builder_->serve_back());
   builder_->tell_retired();
   return goes_on;
 }
@@ -200,7 +223,8 @@ void Pipeline::Impl::give_out(const LivePose& pose) {
 void Pipeline::Impl::finish() {
   const bool usable =
       result_.outcome != Outcome::kPredictorFailed && result_.outcome != Outcome::kSessionFailed;
-  if (!usable || result_.progress.keyframes == 0) return;
+  const bool lane_left = went_well(builder_->leave_lane(usable));
+  if (!usable || !lane_left || result_.progress.keyframes == 0) return;
   if (predictor_->finish != nullptr && predictor_->finish(predictor_) == UNISIM_PREDICTION_FAILED) {
     went_well(Step::kPredictorFailed);
     return;
@@ -218,7 +242,7 @@ bool Pipeline::Impl::went_well(Step step) {
   if (step == Step::kOk) return true;
   if (step == Step::kPredictorFailed) {
     end(Outcome::kPredictorFailed,
-        std::string(predictor_->name) + " predictor: " + predictor_->message(predictor_));
+        std::string(predictor_->name) + " predictor: " + builder_->failure());
   } else if (step == Step::kCapacity) {
     end(Outcome::kCapacity, "the map is full at " + std::to_string(result_.progress.keyframes) +
                                 " keyframes; raise session.max_keyframes");

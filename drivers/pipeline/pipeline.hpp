@@ -12,6 +12,7 @@
 #include "drivers/pipeline/keyframe_selector.hpp"
 #include "drivers/pipeline/latency_histogram.hpp"
 #include "drivers/pipeline/listener.hpp"
+#include "drivers/pipeline/map_builder.hpp"
 #include "drivers/pipeline/session_client.hpp"
 #include "drivers/predictor.h"
 #include "drivers/source.h"
@@ -24,6 +25,7 @@ struct Options {
   int32_t queue_frames = 8;    ///< frames decoded ahead
   bool every_frame = false;    ///< also pose the frames between keyframes
   bool realtime = false;       ///< keep to the recorded times, drop late frames
+  double patience_s = 60.0;    ///< a source that gives nothing for so long has failed; 0: never
   bool decode_images = false;  ///< decode for the listeners, also where the predictor needs none
 };
 
@@ -44,14 +46,17 @@ struct Result {
   StageTimes times;
   unisim_predictor_info predictor{};
   int64_t heap_calls = -1;  ///< inside the library after create, -1: not counted
+  LaneReport lanes;
+  bool source_held = false;  ///< the source has not come back from its last call: do not destroy it
   double wall_s = 0.0;
 };
 
 /// One run. Everything it holds is bounded by its options and its configuration: what a run makes
 /// goes to the listeners.
 ///
-/// Threads: the source is read on a thread of its own, all else happens on the thread that calls
-/// run(). Without `realtime` the result depends on the inputs alone, not on timing.
+/// Threads: the source is read on one of its own, and a predictor with concurrent_windows is asked
+/// for windows on another; all else, the session and the listeners too, stays on the thread that
+/// calls run(). Without `realtime` the result depends on the inputs alone, not on timing.
 class Pipeline {
  public:
   /// @param source, predictor, listeners borrowed; they must outlive the pipeline

@@ -290,6 +290,7 @@ void destroy(unisim_predictor* predictor) {
 }
 
 void fill_table(Recorded* recorded) {
+  recorded->struct_size = sizeof(unisim_predictor);
   recorded->name = "recorded";
   recorded->needs_images = 0;
   recorded->observe = observe;

@@ -189,6 +189,7 @@ void destroy(unisim_predictor* predictor) {
 
 void fill_table(Recorder* recorder, unisim_predictor* inner) {
   recorder->inner = inner;
+  recorder->struct_size = sizeof(unisim_predictor);
   recorder->name = inner->name;
   recorder->needs_images = inner->needs_images;
   recorder->observe = observe;

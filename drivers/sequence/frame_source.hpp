@@ -38,7 +38,6 @@ class FrameSource : public unisim_source {
 
   virtual int64_t count() const = 0;
   virtual int read(bool decode_image, unisim_frame* frame) = 0;
-  virtual int decode_last(unisim_frame* frame) = 0;
 
   /// Sets message() and gives the status back.
   int answer(int status, std::string text);

@@ -33,8 +33,7 @@ class ImageSource final : public FrameSource {
     return decode_image ? decode_last(frame) : UNISIM_FRAME_OK;
   }
 
-  int decode_last(unisim_frame* frame) override {
-    if (next_ == range_.from) return answer(UNISIM_FRAME_BAD, "decode() before the first frame");
+  int decode_last(unisim_frame* frame) {
     const std::string& path = frames_[static_cast<size_t>(next_ - 1)].path;
     std::string reason;
     if (decoder_.decode(path, &frame->image, &reason)) return UNISIM_FRAME_OK;

@@ -92,7 +92,7 @@ class VideoSource final : public FrameSource {
     return decode_image ? decode_last(frame) : UNISIM_FRAME_OK;
   }
 
-  int decode_last(unisim_frame* frame) override {
+  int decode_last(unisim_frame* frame) {
     std::string reason = "cannot be decoded";
     if (video_.retrieve(image_) && !image_.empty() && size_.fits(image_, &reason)) {
       frame->image = view_of(square_.apply(image_, &stretched_));

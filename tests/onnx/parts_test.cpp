@@ -118,7 +118,7 @@ TEST_CASE("of refused pairs in a row the keyframes in the middle are blamed firs
   const auto blamed = [&](Blame blame) {
     std::vector<int32_t> ids;
     for (int32_t id = 0; id <= 7; ++id) {
-      if (pairs.blamed(id, blame)) ids.push_back(id);
+      if (pairs.blamed(id, blame, 14)) ids.push_back(id);
     }
     return ids;
   };
@@ -129,4 +129,11 @@ TEST_CASE("of refused pairs in a row the keyframes in the middle are blamed firs
   CHECK(blamed(Blame::kSecond) == std::vector<int32_t>{6});
   pairs.settle(14, false);
   CHECK(blamed(Blame::kSecond).empty());
+}
+
+TEST_CASE("what a pair after the window says does not count") {
+  RefusedPairs pairs(8);
+  for (int32_t j = 1; j <= 6; ++j) pairs.settle(j, j == 5);
+  CHECK(pairs.blamed(4, RefusedPairs::Blame::kFirst, 5));
+  CHECK_FALSE(pairs.blamed(4, RefusedPairs::Blame::kFirst, 4));
 }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
@@ -32,6 +33,7 @@ class ScriptedSource {
   std::set<int64_t> repeated_time;            ///< frames with the time of the one before
   int64_t fails_at = -1;                      ///< frame at which the source gives up
   std::function<void(int64_t)> before_frame;  ///< called on the reader's thread
+  std::function<void()> on_interrupt;         ///< called by interrupt()
 
  private:
   struct Handle {
@@ -64,12 +66,16 @@ class ScriptedPredictor {
   std::set<int32_t> nan_pairs;       ///< T_i_j not finite
   std::set<int32_t> empty_pairs;     ///< depth maps of size 0
   std::set<int32_t> rejected_windows;
+  std::set<int32_t> failing_windows;
   std::set<int32_t> nan_windows;
-  bool wrong_window_ids = false;   ///< windows name keyframes that do not exist
-  int64_t fails_at = -1;           ///< frame at which observe() fails
-  double window_noise = 0.0;       ///< added to positions until the revision takes it away
-  bool revises = false;            ///< every window is revised once, at finish()
-  int32_t wide_every = 0;          ///< keyframes from one exact wide window to the next; 0: none
+  bool wrong_window_ids = false;  ///< windows name keyframes that do not exist
+  int64_t fails_at = -1;          ///< frame at which observe() fails
+  double window_noise = 0.0;      ///< added to positions until the revision takes it away
+  bool revises = false;           ///< every window is revised once, at finish()
+  int32_t wide_every = 0;         ///< keyframes from one exact wide window to the next; 0: none
+  bool revises_early = false;     ///< not at finish(), but as soon as it is asked
+  /// Called before a window is answered, with its first keyframe, on whatever thread asks.
+  std::function<void(int32_t)> before_window;
   double flow = 0.0;               ///< what observe() reports per frame since the last keyframe
   std::vector<int64_t> keyframes;  ///< frame indices as told by keyframe()
   int64_t observed = 0;
@@ -84,6 +90,13 @@ class ScriptedPredictor {
     int64_t token;
     std::vector<int32_t> ids;
   };
+  /// Of one answer.
+  struct Arrays {
+    std::vector<int32_t> ids;
+    std::vector<unisim_sim3> poses;
+    std::vector<std::vector<float>> depths;
+    std::vector<unisim_depth_map> maps;
+  };
   static ScriptedPredictor* self(unisim_predictor* predictor);
   int observe(const unisim_frame* frame, unisim_motion* motion);
   int two_view(int32_t i, int32_t j, unisim_pair_prediction* out);
@@ -91,22 +104,24 @@ class ScriptedPredictor {
   int next_revision(unisim_window_revision* out);
   int next_wide_window(int32_t max_views, unisim_window_prediction* out);
   int frame_pose(unisim_frame_pose* out);
-  void give_window(unisim_window_prediction* out);
-  void fill_poses(const std::vector<int32_t>& ids, double noise);
+  void give_window(Arrays* arrays, unisim_window_prediction* out) const;
+  void fill_poses(double noise, Arrays* arrays) const;
   unisim_depth_map depth_of(int32_t keyframe, double unit, std::vector<float>* storage) const;
 
+  int32_t keyframes_now() const;
+  int64_t keyframe_frame(int32_t keyframe) const;
+
   Handle handle_{};
+  mutable std::mutex mutex_;  // of keyframes
   std::string message_ = "scripted";
   int64_t newest_frame_ = -1;
   std::vector<float> depth_i_, depth_j_;
-  std::vector<std::vector<float>> window_depths_;
-  std::vector<unisim_depth_map> window_maps_;
-  std::vector<int32_t> window_ids_;
-  std::vector<unisim_sim3> window_poses_;
+  Arrays window_, wide_, revision_;
   std::vector<double> log_ratios_;
   std::vector<Window> open_revisions_;
   int64_t next_token_ = 100;
-  size_t wide_given_ = 0;  // wide windows so far
+  int32_t newest_asked_ = -1;  // keyframe of a window
+  int32_t wide_given_ = 0;     // wide windows so far
   bool finished_ = false;
 };
 

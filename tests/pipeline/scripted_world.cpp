@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A scripted camera path, source and predictor.
-#include "tests/replay/scripted_world.hpp"
+#include "tests/pipeline/scripted_world.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -40,10 +41,13 @@ ScriptedSource::ScriptedSource(int64_t count)
     : count_(count), pixels_(size_t{2} * kWidth * kHeight) {
   handle_.self = this;
   unisim_source& t = handle_.table;
+  t.struct_size = sizeof t;
   t.format = "scripted";
   t.frame_count = [](unisim_source* s) { return self(s)->count_; };
   t.next_frame = [](unisim_source* s, int, unisim_frame* frame) { return self(s)->next(frame); };
-  t.decode = [](unisim_source*, unisim_frame*) { return UNISIM_FRAME_OK; };
+  t.interrupt = [](unisim_source* s) {
+    if (self(s)->on_interrupt) self(s)->on_interrupt();
+  };
   t.ground_truth = [](unisim_source*, const unisim_stamped_pose**) { return int64_t{0}; };
   t.ground_truth_path = [](unisim_source*) { return ""; };
   t.message = [](unisim_source* s) { return self(s)->message_.c_str(); };
@@ -72,12 +76,14 @@ int ScriptedSource::next(unisim_frame* frame) {
 ScriptedPredictor::ScriptedPredictor() {
   handle_.self = this;
   unisim_predictor& t = handle_.table;
+  t.struct_size = sizeof t;
   t.name = "scripted";
   t.needs_images = 1;
   t.observe = [](unisim_predictor* p, const unisim_frame* f, unisim_motion* m) {
     return self(p)->observe(f, m);
   };
   t.keyframe = [](unisim_predictor* p, const unisim_frame* f, int32_t id) {
+    const std::lock_guard<std::mutex> lock(self(p)->mutex_);
     const bool in_order = id == static_cast<int32_t>(self(p)->keyframes.size());
     self(p)->keyframes.push_back(f->index);
     return in_order ? UNISIM_PREDICTION_OK : UNISIM_PREDICTION_FAILED;
@@ -105,11 +111,22 @@ ScriptedPredictor::ScriptedPredictor() {
     out->initialised = 1;
   };
   t.message = [](unisim_predictor* p) { return self(p)->message_.c_str(); };
+  t.window_message = t.message;
   t.destroy = [](unisim_predictor*) {};
 }
 
 ScriptedPredictor* ScriptedPredictor::self(unisim_predictor* predictor) {
   return reinterpret_cast<Handle*>(predictor)->self;
+}
+
+int32_t ScriptedPredictor::keyframes_now() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return static_cast<int32_t>(keyframes.size());
+}
+
+int64_t ScriptedPredictor::keyframe_frame(int32_t keyframe) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return keyframes.at(static_cast<size_t>(keyframe));
 }
 
 double ScriptedPredictor::pair_unit(int32_t i) { return std::ldexp(1.0, (i * 5) % 4 - 1); }
@@ -142,8 +159,7 @@ int ScriptedPredictor::two_view(int32_t i, int32_t j, unisim_pair_prediction* ou
   if (rejected_pairs.count(i) != 0) return UNISIM_PREDICTION_REJECTED;
   const double unit = pair_unit(i);
   *out = {};
-  out->T_i_j = relative_pose(true_pose(keyframes.at(static_cast<size_t>(i))),
-                             true_pose(keyframes.at(static_cast<size_t>(j))), unit);
+  out->T_i_j = relative_pose(true_pose(keyframe_frame(i)), true_pose(keyframe_frame(j)), unit);
   out->depth_i = depth_of(i, unit, &depth_i_);
   out->depth_j = depth_of(j, unit, &depth_j_);
   if (nan_pairs.count(i) != 0) out->T_i_j.t[1] = std::numeric_limits<double>::quiet_NaN();
@@ -151,70 +167,74 @@ int ScriptedPredictor::two_view(int32_t i, int32_t j, unisim_pair_prediction* ou
   return UNISIM_PREDICTION_OK;
 }
 
-void ScriptedPredictor::fill_poses(const std::vector<int32_t>& ids, double noise) {
-  window_poses_.clear();
-  const unisim_sim3 origin = true_pose(keyframes.at(static_cast<size_t>(ids[0])));
-  for (const int32_t id : ids) {
-    unisim_sim3 T = relative_pose(origin, true_pose(keyframes.at(static_cast<size_t>(id))),
-                                  window_unit(ids[0]));
+void ScriptedPredictor::fill_poses(double noise, Arrays* arrays) const {
+  arrays->poses.clear();
+  const int32_t first = arrays->ids[0];
+  const unisim_sim3 origin = true_pose(keyframe_frame(first));
+  for (const int32_t id : arrays->ids) {
+    unisim_sim3 T = relative_pose(origin, true_pose(keyframe_frame(id)), window_unit(first));
     T.t[1] += noise * std::sin(5.0 * id);
-    window_poses_.push_back(T);
+    arrays->poses.push_back(T);
   }
 }
 
 int ScriptedPredictor::multi_view(const int32_t* ids, int32_t count,
                                   unisim_window_prediction* out) {
-  if (static_cast<int32_t>(keyframes.size()) < pending_until) return UNISIM_PREDICTION_PENDING;
+  if (keyframes_now() < pending_until) return UNISIM_PREDICTION_PENDING;
+  if (before_window) before_window(ids[0]);
+  newest_asked_ = std::max(newest_asked_, ids[count - 1]);
   if (rejected_windows.count(ids[0]) != 0) return UNISIM_PREDICTION_REJECTED;
-  window_ids_.assign(ids, ids + count);
-  fill_poses(window_ids_, window_noise);
+  if (failing_windows.count(ids[0]) != 0) return UNISIM_PREDICTION_FAILED;
+  window_.ids.assign(ids, ids + count);
+  fill_poses(window_noise, &window_);
   if (nan_windows.count(ids[0]) != 0) {
-    window_poses_.back().q[2] = std::numeric_limits<double>::quiet_NaN();
+    window_.poses.back().q[2] = std::numeric_limits<double>::quiet_NaN();
   }
-  give_window(out);
+  give_window(&window_, out);
   out->token = ++next_token_;
-  if (revises) open_revisions_.push_back({out->token, window_ids_});
-  if (wrong_window_ids) window_ids_.back() += 1000;
+  if (revises) open_revisions_.push_back({out->token, window_.ids});
+  if (wrong_window_ids) window_.ids.back() += 1000;
   return UNISIM_PREDICTION_OK;
 }
 
-/// The window of window_ids_ and window_poses_.
-void ScriptedPredictor::give_window(unisim_window_prediction* out) {
-  window_maps_.clear();
-  window_depths_.resize(window_ids_.size());
-  for (size_t k = 0; k < window_ids_.size(); ++k) {
-    window_maps_.push_back(
-        depth_of(window_ids_[k], window_unit(window_ids_[0]), &window_depths_[k]));
+/// The window of the ids and poses in `arrays`.
+void ScriptedPredictor::give_window(Arrays* arrays, unisim_window_prediction* out) const {
+  arrays->maps.clear();
+  arrays->depths.resize(arrays->ids.size());
+  for (size_t k = 0; k < arrays->ids.size(); ++k) {
+    arrays->maps.push_back(
+        depth_of(arrays->ids[k], window_unit(arrays->ids[0]), &arrays->depths[k]));
   }
   *out = {};
   out->token = -1;
-  out->count = static_cast<int32_t>(window_ids_.size());
-  out->keyframe_ids = window_ids_.data();
-  out->T_window_kf = window_poses_.data();
-  out->depth = window_maps_.data();
+  out->count = static_cast<int32_t>(arrays->ids.size());
+  out->keyframe_ids = arrays->ids.data();
+  out->T_window_kf = arrays->poses.data();
+  out->depth = arrays->maps.data();
 }
 
 int ScriptedPredictor::next_wide_window(int32_t max_views, unisim_window_prediction* out) {
   if (wide_every == 0) return UNISIM_PREDICTION_PENDING;
-  // The newest keyframe's pair may still be open.
-  const size_t settled = keyframes.size() - 1;
-  if (settled / static_cast<size_t>(wide_every) <= wide_given_) return UNISIM_PREDICTION_PENDING;
+  // The newest keyframe's pair may still be open; on two threads only what was asked for counts.
+  const bool concurrent = handle_.table.concurrent_windows != 0;
+  const int32_t settled = concurrent ? newest_asked_ : keyframes_now() - 1;
+  if (settled / wide_every <= wide_given_) return UNISIM_PREDICTION_PENDING;
   ++wide_given_;
-  window_ids_.clear();
-  const auto step = static_cast<int32_t>(settled) / max_views + 1;
-  for (int32_t id = 0; id < static_cast<int32_t>(settled); id += step) window_ids_.push_back(id);
-  fill_poses(window_ids_, 0.0);
-  give_window(out);
+  wide_.ids.clear();
+  for (int32_t id = 0; id < settled; id += settled / max_views + 1) wide_.ids.push_back(id);
+  fill_poses(0.0, &wide_);
+  give_window(&wide_, out);
   return UNISIM_PREDICTION_OK;
 }
 
 int ScriptedPredictor::next_revision(unisim_window_revision* out) {
-  if (!finished_ || open_revisions_.empty()) return UNISIM_PREDICTION_PENDING;
+  if ((!finished_ && !revises_early) || open_revisions_.empty()) return UNISIM_PREDICTION_PENDING;
   const Window window = open_revisions_.back();
   open_revisions_.pop_back();
-  fill_poses(window.ids, 0.0);
+  revision_.ids = window.ids;
+  fill_poses(0.0, &revision_);
   log_ratios_.assign(window.ids.size(), 0.0);
-  *out = {window.token, static_cast<int32_t>(window.ids.size()), window_poses_.data(),
+  *out = {window.token, static_cast<int32_t>(window.ids.size()), revision_.poses.data(),
           log_ratios_.data(), 0.0};
   return UNISIM_PREDICTION_OK;
 }

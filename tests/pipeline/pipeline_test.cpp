@@ -2,114 +2,16 @@
 // The pipeline with a scripted predictor and the real session.
 #include "drivers/pipeline/pipeline.hpp"
 
-#include <atomic>
 #include <chrono>
-#include <cmath>
-#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "drivers/pipeline/pose_book.hpp"
 #include "drivers/pipeline/similarity.hpp"
-#include "tests/replay/scripted_world.hpp"
+#include "tests/pipeline/scripted_run.hpp"
 #include "tests/support/catch.hpp"
 
-using namespace unisim::pipeline;
-using unisim::testing::ScriptedPredictor;
-using unisim::testing::ScriptedSource;
-using unisim::testing::true_pose;
-
-namespace {
-
-class Recorder : public Listener {
- public:
-  void on_message(const std::string& line) override { lines.push_back(line); }
-  void on_window(int32_t, const unisim_window_prediction&) override { ++windows; }
-  void on_revision(int32_t, const unisim_window_revision&) override { ++revisions; }
-  void on_live_pose(const LivePose& pose) override { live.push_back(pose); }
-  void on_between_pose(const BetweenPose& pose) override { between.push_back(pose); }
-  void on_retired(const unisim_retired& one, const unisim_pose*) override {
-    retired += one.kind == UNISIM_RETIRED_KEYFRAME ? 1 : 0;
-    book.take(one);
-  }
-
-  bool told(const std::string& part) const {
-    for (const std::string& line : lines) {
-      if (line.find(part) != std::string::npos) return true;
-    }
-    return false;
-  }
-
-  std::vector<std::string> lines;
-  int windows = 0;
-  int revisions = 0;
-  int retired = 0;
-  std::vector<LivePose> live;
-  std::vector<BetweenPose> between;
-  PoseBook book;
-};
-
-/// One run of 200 frames at stride 5 with everything a test may want to change.
-struct Run {
-  explicit Run(int64_t frames = 200) : source(frames) {
-    REQUIRE(unisim_config_init(&config, sizeof config) == UNISIM_OK);
-    config.max_keyframes = 64;
-    config.window_size = 8;
-    config.live_scale_exponent = 1.0;
-    options.keyframes.stride = 5;
-  }
-
-  const Result& go() {
-    pipeline = std::make_unique<Pipeline>(options, source.table(), predictor.table(), config,
-                                          std::vector<Listener*>{&listener}, &stop);
-    return pipeline->run();
-  }
-
-  unisim_session_info info() const {
-    unisim_session_info out{};
-    out.struct_size = sizeof out;
-    REQUIRE(unisim_get_info(pipeline->session(), &out) == UNISIM_OK);
-    return out;
-  }
-
-  unisim_pose pose(int32_t keyframe) const {
-    unisim_pose out{};
-    out.struct_size = sizeof out;
-    REQUIRE(unisim_get_pose(pipeline->session(), keyframe, &out) == UNISIM_OK);
-    return out;
-  }
-
-  /// Largest distance of a keyframe from the truth, in true units.
-  double worst_error() const {
-    double worst = 0.0;
-    for (size_t k = 0; k < predictor.keyframes.size(); ++k) {
-      const unisim_sim3 T = pose(static_cast<int32_t>(k)).T_world_kf;
-      worst = std::max(worst, distance(T, predictor.keyframes[k]));
-    }
-    return worst;
-  }
-
-  /// The world is in the unit of the first pair.
-  static double distance(const unisim_sim3& T, int64_t frame) {
-    const unisim_sim3 truth = true_pose(frame);
-    double sum = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      sum += std::pow(T.t[k] / ScriptedPredictor::pair_unit(0) - truth.t[k], 2);
-    }
-    return std::sqrt(sum);
-  }
-
-  ScriptedSource source;
-  ScriptedPredictor predictor;
-  unisim_config config;
-  Options options;
-  std::atomic<bool> stop{false};
-  Recorder listener;
-  std::unique_ptr<Pipeline> pipeline;
-};
-
-}  // namespace
+using namespace unisim::testing;
 
 TEST_CASE("exact predictions give the exact trajectory") {
   Run run;
@@ -342,25 +244,6 @@ TEST_CASE("wide windows correct what has left the sliding window, newer ones in 
   const double without = mean_error(0);
   const double with = mean_error(9);
   CHECK(with < 0.7 * without);
-}
-
-TEST_CASE("a bounded run gives out every keyframe, and each has its pose at the end") {
-  constexpr int32_t kKeyframes = 600;
-  Run run(5 * kKeyframes);
-  run.config.window_submaps = 2;
-  run.config.max_keyframes = (2 + 9) * run.config.window_size;
-  REQUIRE(run.go().outcome == Outcome::kFinished);
-  const unisim_session_info info = run.info();
-  CHECK(info.keyframes == kKeyframes);
-  CHECK(info.retired_unread == 0);
-  CHECK(run.listener.retired == info.retired_keyframes);
-  REQUIRE(info.first_keyframe > 400);
-  REQUIRE(info.retired_keyframes > 500);
-  for (int32_t k = 0; k < info.retired_keyframes; ++k) {
-    unisim_sim3 T{};
-    REQUIRE(run.listener.book.find(run.pipeline->session(), k, &T));
-    REQUIRE(Run::distance(T, run.predictor.keyframes[static_cast<size_t>(k)]) < 1e-5);
-  }
 }
 
 TEST_CASE("a realtime run drops the frames it is late for") {

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Sources that stall, throw and let themselves be interrupted.
+#include "drivers/pipeline/frame_reader.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include "tests/pipeline/scripted_run.hpp"
+
+using namespace unisim::testing;
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+namespace {
+
+/// Where a source waits until it is let go.
+class Gate {
+ public:
+  void wait() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    ++waiting_;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return open_; });
+  }
+  void open() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    open_ = true;
+    changed_.notify_all();
+  }
+  void wait_for_visitor() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [this] { return waiting_ > 0; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool open_ = false;
+  int waiting_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("an exception of a source ends the run, not the program") {
+  Run run;
+  run.source.before_frame = [](int64_t frame) {
+    if (frame == 100) throw std::runtime_error("no memory for this image");
+  };
+  const Result& result = run.go();
+  CHECK(result.outcome == Outcome::kSourceFailed);
+  CHECK(result.message == "scripted source: no memory for this image");
+  CHECK(run.info().posed_keyframes == 20);
+}
+
+TEST_CASE("a run is stopped within a second while its source waits") {
+  Run run(1000);
+  Gate gate;
+  run.source.before_frame = [&gate](int64_t frame) {
+    if (frame == 60) gate.wait();
+  };
+  run.source.on_interrupt = [&gate] { gate.open(); };
+  std::thread user([&] {
+    gate.wait_for_visitor();
+    run.stop.store(true);
+  });
+  const Result& result = run.go();
+  user.join();
+  CHECK(result.outcome == Outcome::kStopped);
+  CHECK_FALSE(result.source_held);
+  CHECK(result.wall_s < 1.0);
+  CHECK(run.predictor.keyframes.size() == 12);
+  CHECK(static_cast<size_t>(run.info().posed_keyframes) == run.predictor.keyframes.size());
+}
+
+TEST_CASE("a source that knows no interrupt is left alone with its last call") {
+  ScriptedSource source(1000);
+  Gate gate;
+  source.before_frame = [&gate](int64_t frame) {
+    if (frame == 3) gate.wait();
+  };
+  source.table()->interrupt = nullptr;
+  FrameReader reader(source.table(), 8, true);
+  std::atomic<bool> stop{false};
+  for (int k = 0; k < 3; ++k) REQUIRE(reader.next(&stop, milliseconds(0)) != nullptr);
+  gate.wait_for_visitor();
+  stop.store(true);
+  const Clock::time_point start = Clock::now();
+  CHECK(reader.next(&stop, milliseconds(0)) == nullptr);
+  reader.stop();
+  CHECK(Clock::now() - start < std::chrono::seconds(1));
+  CHECK(reader.holds_source());
+  gate.open();
+  while (reader.holds_source()) std::this_thread::sleep_for(milliseconds(1));
+}
+
+TEST_CASE("a source that gives nothing for too long has failed") {
+  Run run(1000);
+  Gate gate;
+  run.source.before_frame = [&gate](int64_t frame) {
+    if (frame == 60) gate.wait();
+  };
+  run.source.on_interrupt = [&gate] { gate.open(); };
+  run.options.patience_s = 0.2;
+  const Result& result = run.go();
+  CHECK(result.outcome == Outcome::kSourceFailed);
+  CHECK(result.message.find("scripted source: no frame for 0.2 s") == 0);
+  CHECK(run.info().posed_keyframes == 12);
+}
