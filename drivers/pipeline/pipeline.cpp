@@ -282,7 +282,14 @@ const Result& Pipeline::run() { return impl_->run(); }
 
 unisim_session* Pipeline::session() const { return impl_->session(); }
 
-int32_t keyframe_capacity(int64_t frames, const KeyframeConfig& keyframes, int32_t when_unknown) {
+int32_t keyframe_capacity(const unisim_config& session, int64_t frames,
+                          const KeyframeConfig& keyframes, int32_t when_unknown) {
+  if (session.window_submaps > 0) {
+    // As unisim.h asks for. Wide windows and revisions reach back as far as a predictor remembers.
+    const int32_t least = (session.window_submaps + 9) * session.window_size;
+    constexpr int32_t kRemembered = 320;
+    return std::max(least, kRemembered);
+  }
   if (frames < 0) return when_unknown;
   const int64_t gap = std::max(keyframes.stride > 0 ? keyframes.stride : keyframes.min_gap, 1);
   const int64_t needed = frames / gap + 2;

@@ -83,9 +83,12 @@ class Pipeline {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Keyframes a sequence can have: a capacity that is never reached.
+/// Capacity that suits a run. Full batch: the keyframes a sequence can have, never reached. Sliding
+/// window: as many as it needs, and predictors speak of, however long the sequence.
+/// @param session      window_submaps, window_size
 /// @param frames       frames of the sequence, < 0: not known
-/// @param when_unknown returned then
-int32_t keyframe_capacity(int64_t frames, const KeyframeConfig& keyframes, int32_t when_unknown);
+/// @param when_unknown returned for a full batch then
+int32_t keyframe_capacity(const unisim_config& session, int64_t frames,
+                          const KeyframeConfig& keyframes, int32_t when_unknown);
 
 }  // namespace unisim::pipeline

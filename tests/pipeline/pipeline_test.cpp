@@ -290,14 +290,3 @@ TEST_CASE("every call of the session is timed and watched for heap calls") {
   CHECK_FALSE(inside);
   CHECK_FALSE(nested);
 }
-
-TEST_CASE("capacity follows from the length of the sequence") {
-  KeyframeConfig keyframes;
-  keyframes.stride = 5;
-  CHECK(keyframe_capacity(500, keyframes, 1024) >= 100);
-  CHECK(keyframe_capacity(500, keyframes, 1024) <= 102);
-  CHECK(keyframe_capacity(-1, keyframes, 1024) == 1024);
-  keyframes.stride = 0;
-  keyframes.min_gap = 2;
-  CHECK(keyframe_capacity(500, keyframes, 1024) >= 250);
-}

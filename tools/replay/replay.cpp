@@ -191,12 +191,10 @@ int replay(const Options& options, const std::atomic<bool>& stop) {
 
   unisim_config config = settings.session;
   if (!options.settings.max_keyframes_given) {
-    const int32_t wanted = config.window_submaps > 0
-                               ? config.max_keyframes
-                               : pipeline::keyframe_capacity(source->frame_count(source.get()),
-                                                             options.settings.pipeline.keyframes,
-                                                             kUnknownLengthKeyframes);
-    config.max_keyframes = std::max(wanted, least_keyframes(config));
+    config.max_keyframes = std::max(
+        pipeline::keyframe_capacity(config, source->frame_count(source.get()),
+                                    options.settings.pipeline.keyframes, kUnknownLengthKeyframes),
+        least_keyframes(config));
   }
   ProgressLine progress(progress_style(options));
   for (const std::string& note : notes) {
