@@ -28,7 +28,7 @@ unisim_status size_with(const std::string& name, double value) {
     if (auto* const* whole = std::get_if<int32_t*>(&field.target))
       **whole = static_cast<int32_t>(value);
     if (auto* const* bits = std::get_if<uint32_t*>(&field.target))
-      **bits = static_cast<uint32_t>(value);
+      **bits = static_cast<uint32_t>(static_cast<int64_t>(value));
     if (auto* const* real = std::get_if<double*>(&field.target)) **real = value;
   }
   size_t size = 0;
