@@ -17,7 +17,7 @@ readonly CONTRIBUTOR_PACKAGES="ccache clang clang-format-19 clang-tidy-19 shellc
 usage() {
   cat <<'TEXT'
 usage: tools/bootstrap.sh VERB
-  demo     install what is missing, build, render a room, track it, print the error
+  demo     install what is missing, build what it needs, render a room, track it, print the error
   test     install what is missing, build, run every test
   build    install what is missing, build into build/release
   deps     install what is missing: packages, and ONNX Runtime into build/onnxruntime
@@ -105,6 +105,7 @@ onnxruntime() {
   fi
 }
 
+# $*: targets, none: all
 build() {
   local options=(--preset release)
   if command -v ninja >/dev/null && [ ! -f $BUILD/Makefile ]; then
@@ -113,9 +114,13 @@ build() {
   if command -v ccache >/dev/null; then
     options+=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   fi
-  say "building into $BUILD"
+  local targets=()
+  if [ $# -gt 0 ]; then
+    targets=(--target "$@")
+  fi
+  say "building ${*:-all} into $BUILD"
   cmake "${options[@]}" >/dev/null
-  cmake --build --preset release -j "$(nproc)"
+  cmake --build --preset release -j "$(nproc)" "${targets[@]}"
 }
 
 # Render the demo's sequence unless it is there, whole, from the same options and renderer.
@@ -197,7 +202,7 @@ main() {
       run_tests
       ;;
     demo)
-      build
+      build unisim-synth unisim-replay unisim-eval
       demo
       ;;
   esac
