@@ -46,6 +46,23 @@ bool is_about_the_file(OrtErrorCode code) {
          code == ORT_INVALID_GRAPH;
 }
 
+const char* type_name(ONNXTensorElementDataType type) {
+  switch (type) {
+    case ONNX_TENSOR_ELEMENT_DATA_TYPE_FLOAT:
+      return "float32";
+    case ONNX_TENSOR_ELEMENT_DATA_TYPE_FLOAT16:
+      return "float16";
+    case ONNX_TENSOR_ELEMENT_DATA_TYPE_BFLOAT16:
+      return "bfloat16";
+    case ONNX_TENSOR_ELEMENT_DATA_TYPE_DOUBLE:
+      return "float64";
+    case ONNX_TENSOR_ELEMENT_DATA_TYPE_UINT8:
+      return "uint8";
+    default:
+      return "another type than float";
+  }
+}
+
 }  // namespace
 
 Network::Network(std::shared_ptr<const Runtime> runtime, const std::string& path,
@@ -120,7 +137,7 @@ TensorInfo Network::describe_one(bool input, size_t index) const {
     size_t rank = 0;
     runtime_->take_message(api.GetTensorElementType(shape, &element));
     runtime_->take_message(api.GetDimensionsCount(shape, &rank));
-    tensor.is_float = element == ONNX_TENSOR_ELEMENT_DATA_TYPE_FLOAT;
+    tensor.type = type_name(element);
     tensor.shape.resize(rank);
     status = api.GetDimensions(shape, tensor.shape.data(), rank);
   }

@@ -18,8 +18,8 @@ namespace unisim::onnx {
 /// An input or output as the file declares it.
 struct TensorInfo {
   std::string name;
-  bool is_float = false;       ///< float32
-  std::vector<int64_t> shape;  ///< -1: any
+  const char* type = "no tensor";  ///< "float32", "float16" ...: static text
+  std::vector<int64_t> shape;      ///< -1: any
 };
 
 /// A caller's float buffer under a tensor's name. The buffer must outlive the binding.

@@ -3,6 +3,7 @@
 #include "drivers/onnx/tensor_check.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "drivers/onnx/error.hpp"
 
@@ -24,9 +25,12 @@ bool admits(const std::vector<int64_t>& declared, const std::vector<int64_t>& wa
 
 void require_shape(const Network& network, const std::string& what, const TensorInfo& tensor,
                    const std::vector<int64_t>& shape) {
-  if (tensor.is_float && admits(tensor.shape, shape)) return;
-  fail(network, what + " " + tensor.name + " has shape " + shape_text(tensor.shape) +
-                    ", the contract wants float32 " + shape_text(shape));
+  const bool is_float = std::strcmp(tensor.type, "float32") == 0;
+  if (is_float && admits(tensor.shape, shape)) return;
+  const std::string found = is_float ? "shape " : std::string("type ") + tensor.type + ", shape ";
+  fail(network, what + " " + tensor.name + " has " + found + shape_text(tensor.shape) +
+                    ", the contract wants float32 " + shape_text(shape) +
+                    (is_float ? "" : "; export it with float32 inputs and outputs"));
 }
 
 }  // namespace

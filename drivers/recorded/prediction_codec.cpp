@@ -49,12 +49,13 @@ class Cursor {
   /// `count` values, padded to 8 bytes; NULL when there are not as many.
   template <class T>
   const T* take(std::size_t count) {
-    const std::size_t left = size_ - at_;
-    if (count > left / sizeof(T)) return nullptr;
+    if (count > left() / sizeof(T)) return nullptr;
     const auto* values = reinterpret_cast<const T*>(data_ + at_);
-    at_ += std::min((count * sizeof(T) + 7) / 8 * 8, left);
+    at_ += std::min((count * sizeof(T) + 7) / 8 * 8, left());
     return values;
   }
+
+  std::size_t left() const { return size_ - at_; }  ///< bytes not taken yet
 
  private:
   const unsigned char* data_;
@@ -77,8 +78,13 @@ Decoded decode_depth(Cursor* cursor, unisim_depth_map* out, std::string* problem
                         head->height <= kLargest &&
                         (head->has_confidence == 0 || head->has_confidence == 1);
   if (!possible) return fail(Decoded::kMalformed, "depth map of impossible size", problem);
-  const std::size_t count = pixel_count(head->width, head->height);
-  const float* pixels = cursor->take<float>(head->has_confidence != 0 ? 2 * count : count);
+  // Where size_t has 32 bits the product may wrap: more than the record has is refused before.
+  const std::uint64_t values = std::uint64_t{static_cast<std::uint32_t>(head->width)} *
+                               static_cast<std::uint32_t>(head->height) *
+                               (head->has_confidence != 0 ? 2U : 1U);
+  const bool fits = values <= cursor->left() / sizeof(float);
+  const std::size_t count = fits ? pixel_count(head->width, head->height) : 0;
+  const float* pixels = fits ? cursor->take<float>(static_cast<std::size_t>(values)) : nullptr;
   if (pixels == nullptr) {
     return fail(Decoded::kMalformed, "depth map larger than its record", problem);
   }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <new>
 #include <string>
 
 #include "drivers/recorded/origin.hpp"
@@ -48,8 +49,10 @@ template <class Function>
 int guarded(Recorded& recorded, Function function) {
   try {
     return function();
-  } catch (const std::exception&) {
-    return fail(recorded, "not enough memory to read the recording");
+  } catch (const std::bad_alloc&) {
+    return fail(recorded, "not enough memory to read " + recorded.path);
+  } catch (const std::exception& error) {
+    return fail(recorded, recorded.path + ": " + error.what());
   }
 }
 
@@ -346,8 +349,11 @@ unisim_predictor* unisim_recorded_open(const char* path, char* message, size_t m
     }
     fill_table(recorded.get());
     return recorded.release();
-  } catch (const std::exception&) {
-    say(message, message_size, "not enough memory to read the recording");
+  } catch (const std::bad_alloc&) {
+    say(message, message_size, std::string("not enough memory to read ") + path);
+    return nullptr;
+  } catch (const std::exception& error) {
+    say(message, message_size, std::string(path) + ": " + error.what());
     return nullptr;
   }
 }
