@@ -42,7 +42,7 @@ struct FileHead {
   std::int32_t image_width;
   std::int32_t image_height;
   std::int32_t keyframe_count;
-  std::uint32_t reserved;
+  std::uint32_t concurrent_windows;  ///< as of the predictor that was recorded: 0 or 1
 };
 
 /// Start of every record; `key_bytes` and `data_bytes` follow, both multiples of 8.
@@ -54,7 +54,9 @@ struct RecordHead {
   std::uint32_t head_crc;  ///< of the 20 bytes above and the key
 };
 
-/// When an answer was given: after these calls of observe(), keyframe(), finish().
+/// When an answer was given: after these calls of observe(), keyframe(), finish(). Where windows
+/// were asked for beside the tracking its progress says nothing about them: then the frame is -1
+/// and the keyframe the newest one that a window was asked for.
 struct Moment {
   std::int64_t frame = -1;     ///< index of the frame observed last
   std::int32_t keyframe = -1;  ///< newest keyframe id

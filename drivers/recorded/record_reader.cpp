@@ -87,6 +87,7 @@ bool RecordReader::parse_header(const AlignedBytes& bytes, std::size_t size) {
   info_.image_width = head.image_width;
   info_.image_height = head.image_height;
   info_.keyframe_count = head.keyframe_count;
+  info_.concurrent_windows = head.concurrent_windows != 0;
   std::size_t at = sizeof head;
   for (std::string* text : {&info_.creator, &info_.sequence, &info_.predictor}) {
     std::uint32_t length = 0;

@@ -59,6 +59,7 @@ void RecordWriter::write_header(const FileInfo& info) {
   head.image_width = info.image_width;
   head.image_height = info.image_height;
   head.keyframe_count = info.keyframe_count;
+  head.concurrent_windows = info.concurrent_windows ? 1 : 0;
   bytes_.clear();
   bytes_.put(head);
   put_text(bytes_, info.creator);

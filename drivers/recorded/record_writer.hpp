@@ -47,6 +47,7 @@ struct FileInfo {
   std::int32_t image_width = 0;   ///< pixels, 0 not known
   std::int32_t image_height = 0;  ///< pixels, 0 not known
   std::int32_t keyframe_count = -1;
+  bool concurrent_windows = false;  ///< of the predictor
 };
 
 /// Writes one file. After the first failure nothing more is written and problem() says why.

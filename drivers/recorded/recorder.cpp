@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A predictor that hands every call on and stores the answers.
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <string>
 
@@ -21,14 +23,26 @@ struct Recorder : unisim_predictor {
   FileInfo file;
   bool header_written = false;
   Moment moment;
+  Moment back_moment;  ///< of windows, where they are asked for beside the tracking
+  std::mutex mutex;    ///< of the writer: then two threads store
+
+  const Moment& window_moment() const { return concurrent_windows != 0 ? back_moment : moment; }
 };
 
 Recorder& self(unisim_predictor* predictor) { return *static_cast<Recorder*>(predictor); }
+
+const char* reason_of(const Recorder& recorder, Kind kind) {
+  const bool back = kind == Kind::kWindow || kind == Kind::kRevision || kind == Kind::kWideWindow;
+  unisim_predictor* const inner = recorder.inner;
+  return back && inner->window_message != nullptr ? inner->window_message(inner)
+                                                  : inner->message(inner);
+}
 
 /// Writes one record: `put_key` its key, `put_data` the data of an OK answer.
 /// The data of a rejected answer is the reason, of a pending one nothing.
 template <class PutKey, class PutData>
 void store(Recorder& recorder, Kind kind, int status, PutKey put_key, PutData put_data) {
+  const std::lock_guard<std::mutex> lock(recorder.mutex);
   if (!recorder.writer.active() || status == UNISIM_PREDICTION_FAILED) return;
   try {
     RecordWriter& writer = recorder.writer;
@@ -37,7 +51,7 @@ void store(Recorder& recorder, Kind kind, int status, PutKey put_key, PutData pu
     writer.end_key();
     if (status == UNISIM_PREDICTION_OK) put_data(writer.bytes());
     if (status == UNISIM_PREDICTION_REJECTED) {
-      const char* reason = recorder.inner->message(recorder.inner);
+      const char* reason = reason_of(recorder, kind);
       if (reason != nullptr) writer.bytes().put_array(reason, std::strlen(reason));
     }
     writer.end();
@@ -102,10 +116,11 @@ int multi_view(unisim_predictor* predictor, const int32_t* ids, int32_t count,
                unisim_window_prediction* out) {
   Recorder& recorder = self(predictor);
   const int status = recorder.inner->multi_view(recorder.inner, ids, count, out);
+  recorder.back_moment.keyframe = std::max(recorder.back_moment.keyframe, ids[count - 1]);
   store(
       recorder, Kind::kWindow, status,
       [&](RecordBytes& bytes) {
-        bytes.put(WindowKey{recorder.moment, status, count});
+        bytes.put(WindowKey{recorder.window_moment(), status, count});
         bytes.put_array(ids, static_cast<std::size_t>(count));
       },
       [&](RecordBytes& bytes) { encode_window(*out, &bytes); });
@@ -118,7 +133,7 @@ int next_revision(unisim_predictor* predictor, unisim_window_revision* out) {
   if (status != UNISIM_PREDICTION_OK) return status;
   store(
       recorder, Kind::kRevision, status,
-      [&](RecordBytes& bytes) { bytes.put(RevisionKey{recorder.moment, out->token}); },
+      [&](RecordBytes& bytes) { bytes.put(RevisionKey{recorder.window_moment(), out->token}); },
       [&](RecordBytes& bytes) { encode_revision(*out, &bytes); });
   return status;
 }
@@ -130,7 +145,7 @@ int next_wide_window(unisim_predictor* predictor, int32_t max_views,
   if (status != UNISIM_PREDICTION_OK) return status;
   store(
       recorder, Kind::kWideWindow, status,
-      [&](RecordBytes& bytes) { bytes.put(WideWindowKey{recorder.moment}); },
+      [&](RecordBytes& bytes) { bytes.put(WideWindowKey{recorder.window_moment()}); },
       [&](RecordBytes& bytes) { encode_window(*out, &bytes); });
   return status;
 }
@@ -149,7 +164,7 @@ int frame_pose(unisim_predictor* predictor, unisim_frame_pose* out) {
 int finish(unisim_predictor* predictor) {
   Recorder& recorder = self(predictor);
   const int status = recorder.inner->finish(recorder.inner);
-  recorder.moment.finished = 1;
+  recorder.moment.finished = recorder.back_moment.finished = 1;
   return status;
 }
 
@@ -161,6 +176,11 @@ void info(unisim_predictor* predictor, unisim_predictor_info* out) {
 const char* message(unisim_predictor* predictor) {
   Recorder& recorder = self(predictor);
   return recorder.inner->message(recorder.inner);
+}
+
+const char* window_message(unisim_predictor* predictor) {
+  Recorder& recorder = self(predictor);
+  return recorder.inner->window_message(recorder.inner);
 }
 
 void write_end(Recorder& recorder) {
@@ -192,6 +212,8 @@ void fill_table(Recorder* recorder, unisim_predictor* inner) {
   recorder->struct_size = sizeof(unisim_predictor);
   recorder->name = inner->name;
   recorder->needs_images = inner->needs_images;
+  recorder->concurrent_windows = inner->concurrent_windows;
+  recorder->file.concurrent_windows = inner->concurrent_windows != 0;
   recorder->observe = observe;
   recorder->keyframe = keyframe;
   recorder->two_view = two_view;
@@ -202,6 +224,7 @@ void fill_table(Recorder* recorder, unisim_predictor* inner) {
   recorder->finish = inner->finish != nullptr ? finish : nullptr;
   recorder->info = info;
   recorder->message = message;
+  recorder->window_message = inner->window_message != nullptr ? window_message : nullptr;
   recorder->destroy = destroy;
 }
 

@@ -105,7 +105,7 @@ TEST_CASE("a window larger than the model takes is refused with what to do") {
   const int32_t ids[] = {0, 1, 2, 3, 4, 5, 6, 7, 8};
   unisim_window_prediction window{};
   CHECK(predictor->multi_view(predictor, ids, 9, &window) == UNISIM_PREDICTION_REJECTED);
-  CHECK(std::string(predictor->message(predictor)).find("window_size") != std::string::npos);
+  CHECK(std::string(predictor->window_message(predictor)).find("window_size") != std::string::npos);
 }
 
 TEST_CASE("a keyframe that has left the ring is named") {

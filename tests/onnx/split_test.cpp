@@ -90,7 +90,7 @@ TEST_CASE("what is kept of the keyframes is told and counted") {
     notes += std::string(unisim_onnx_note(opened.predictor.get(), i)) + "\n";
   }
   INFO(notes);
-  CHECK(has(notes, "features of the newest 20 keyframes are kept: 0.0293 MB"));
+  CHECK(has(notes, "features of the newest 28 keyframes are kept: 0.041 MB"));
   CHECK(has(notes, "test encoder encoder: 1 view(s)"));
   unisim_predictor_info info{};
   opened.predictor->info(opened.predictor.get(), &info);

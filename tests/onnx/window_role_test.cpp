@@ -33,7 +33,7 @@ struct Upset {
                                         static_cast<int32_t>(ids.size()), out);
   }
 
-  std::string message() const { return opened.predictor->message(opened.predictor.get()); }
+  std::string message() const { return opened.predictor->window_message(opened.predictor.get()); }
 
   Opened opened;
   std::vector<Image> images;

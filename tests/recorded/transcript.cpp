@@ -78,11 +78,13 @@ class Runner {
     ask_all();
   }
 
-  void note(const Line& line, int status) {
+  void note(const Line& line, int status, bool of_windows = false) {
     transcript_.answers.push_back(line.text());
     if (status == UNISIM_PREDICTION_FAILED) ++transcript_.failed;
     if (status == UNISIM_PREDICTION_REJECTED || status == UNISIM_PREDICTION_FAILED) {
-      transcript_.messages.emplace_back(predictor_->message(predictor_));
+      const bool own = of_windows && predictor_->window_message != nullptr;
+      transcript_.messages.emplace_back(own ? predictor_->window_message(predictor_)
+                                            : predictor_->message(predictor_));
     }
   }
 
@@ -149,7 +151,7 @@ class Runner {
       line.add(window.center_sigma);
       line.add(static_cast<double>(window.token));
     }
-    note(line, status);
+    note(line, status, true);
   }
 
   bool ask_revision() {
@@ -164,7 +166,7 @@ class Runner {
       line.add(revision.center_sigma);
       line.add(static_cast<double>(revision.token));
     }
-    note(line, status);
+    note(line, status, true);
     return status == UNISIM_PREDICTION_OK;
   }
 

@@ -27,8 +27,8 @@ std::string size_text(const unisim_image& image) {
 
 /// Where the sequence has no readable frame, the run itself says so.
 void check_size(const Options& options, const unisim_image& mask) {
-  std::string note;
-  const SourcePtr source = open_sequence(options, &note);
+  std::vector<std::string> notes;
+  const SourcePtr source = open_sequence(options, &notes);
   unisim_frame frame{};
   if (!first_frame(source.get(), &frame)) return;
   if (frame.image.width == mask.width && frame.image.height == mask.height) return;
@@ -46,8 +46,8 @@ Mask load_mask(const Options& options) {
   of_mask.to = -1;
   of_mask.sequence = options.mask;
   of_mask.format = "images";
-  std::string note;
-  const SourcePtr source = open_sequence(of_mask, &note);
+  std::vector<std::string> notes;
+  const SourcePtr source = open_sequence(of_mask, &notes);
   unisim_frame frame{};
   if (source->next_frame(source.get(), 1, &frame) != UNISIM_FRAME_OK) {
     throw tools::Failure(tools::kExitInput, source->message(source.get()));

@@ -183,7 +183,8 @@ int conclude(const Run& run, const OutputFolder& folder, const std::string& reco
 int replay(const Options& options, const std::atomic<bool>& stop) {
   OutputFolder folder(options.out, output_names(options), options.force);
   std::vector<std::string> notes;
-  const SourcePtr source = open_sequence(options, &notes);
+  SourcePtr source = open_sequence(options, &notes);
+  const std::string format = source->format;
   const eval::Trajectory truth = load_ground_truth(options.ground_truth, source.get());
   notes.insert(notes.end(), truth.notes.begin(), truth.notes.end());
   Settings settings = options.settings;
@@ -210,11 +211,12 @@ int replay(const Options& options, const std::atomic<bool>& stop) {
   prepare(&pipeline);
   const pipeline::Result& result = pipeline.run();
   progress.finish();
+  if (result.source_held) static_cast<void>(source.release());  // its last call may still come back
 
   const RunData data = collect(pipeline.session(), record, options.settings.pipeline.every_frame);
   if (data.trajectory.empty()) return report_nothing(result, options);
   const Scores scores = score(truth, data);
-  const Run run = {options, result, data, truth, scores, source->format};
+  const Run run = {options, result, data, truth, scores, format};
   folder.add(live.path(), live.problem());
   write_files(run, &folder);
   write_map(run, cloud, &folder);

@@ -53,6 +53,7 @@ void add_pipeline_fields(pipeline::Options* o, std::vector<Field>* fields) {
                   {s, "min_gap", &o->keyframes.min_gap, Range::whole(1, kMostStride)},
                   {s, "max_gap", &o->keyframes.max_gap, Range::whole(1, kMostStride)},
                   {s, "queue_frames", &o->queue_frames, Range::whole(1, 256)},
+                  {s, "patience_s", &o->patience_s, Range::number(0.0, 86400.0)},
                   {s, "every_frame", &o->every_frame, Range::whole(0, 1)},
                   {s, "realtime", &o->realtime, Range::whole(0, 1)}});
 }

@@ -59,6 +59,13 @@ Json segments_json(const Scores& scores) {
   return list;
 }
 
+Json lanes_json(const pipeline::LaneReport& lanes) {
+  return {{"windows_beside", lanes.beside},   {"lag_keyframes", lanes.lag},
+          {"windows_asked", lanes.asked},     {"windows_late", lanes.late},
+          {"windows_dropped", lanes.dropped}, {"most_waiting", lanes.most_waiting},
+          {"waited_ms", lanes.waited_ms}};
+}
+
 Json memory_json(const Run& run) {
   Json memory = {{"arena_bytes", run.data.session.arena_bytes},
                  {"arena_peak_bytes", run.data.session.arena_peak_bytes},
@@ -184,6 +191,7 @@ Json summary_json(const Run& run) {
           {"pairs_refused", info.pairs_refused},
           {"submaps_refused", info.submaps_refused},
           {"focal_px", focal > 0.0 ? Json(focal) : Json(nullptr)},
+          {"lanes", lanes_json(run.result.lanes)},
           {"memory", memory_json(run)},
           {"timing_ms", timing_json(run.result.times)},
           {"wall_s", run.result.wall_s},
