@@ -27,8 +27,8 @@ int whole(double pixels) { return static_cast<int>(std::lround(pixels)); }
 SquarePixels::SquarePixels(cv::Size stored, cv::Size shown, const std::string& aspect)
     : shown_(shown),
       notes_{"pixels are " + aspect + ", not square: the pictures are stretched from " +
-              size_text(stored) + " to " + size_text(shown) +
-              ", and a focal length in pixels is of these"} {}
+             size_text(stored) + " to " + size_text(shown) +
+             ", and a focal length in pixels is of these"} {}
 
 const cv::Mat& SquarePixels::apply(const cv::Mat& image, cv::Mat* stretched) const {
   if (shown_.empty()) return image;
