@@ -212,7 +212,7 @@ TEST_CASE("damaged frames are told and survived") {
 }
 
 TEST_CASE("an image with the time of another is told and left out") {
-  Damaged sequence;
+  DamagedSequence sequence;
   const TempFolder folder;
   sequence.set_time(30, sequence.time(GENERATE(20, 29)));
   sequence.save_list();
