@@ -29,15 +29,17 @@ bool recognise(const std::string& path) { return is_pattern(path) || !list_image
 
 constexpr size_t kFewestDecimals = 3;
 
+enum class NameTimes { kNone, kSeconds, kDated };
+
 // Names that are times: of a clock that tells the date, or in seconds with the same number of
 // decimals each, which "1.9" and "1.10" have not.
-bool are_times(const std::vector<TimedName>& images) {
+NameTimes times_of(const std::vector<TimedName>& images) {
   std::vector<double> times;
   bool decimals = true;
   const size_t after_point = images.front().time.size() - 1 - images.front().time.find('.');
   for (const TimedName& image : images) {
     double time = 0;
-    if (!parse_number(image.time, &time)) return false;
+    if (!parse_number(image.time, &time)) return NameTimes::kNone;
     const size_t point = image.time.find('.');
     decimals = decimals && point != std::string::npos && after_point >= kFewestDecimals &&
                image.time.size() - 1 - point == after_point;
@@ -45,7 +47,8 @@ bool are_times(const std::vector<TimedName>& images) {
   }
   const TimeUnit unit = guess_unit(times, TimeUnit::kSeconds, kLongestImageStepS);
   const auto is_dated = [unit](double time) { return is_date(time / units_per_second(unit)); };
-  return decimals || std::all_of(times.begin(), times.end(), is_dated);
+  if (std::all_of(times.begin(), times.end(), is_dated)) return NameTimes::kDated;
+  return decimals ? NameTimes::kSeconds : NameTimes::kNone;
 }
 
 // The first image has time 0: the numbers of a recording begin anywhere.
@@ -64,6 +67,12 @@ void time_by_number(const std::vector<std::string>& paths, double fps, Recording
   }
 }
 
+void begin_at_zero(Recording* recording) {
+  if (recording->frames.empty()) return;
+  const int64_t first_ns = recording->frames.front().timestamp_ns;
+  for (auto& frame : recording->frames) frame.timestamp_ns -= first_ns;
+}
+
 Recording list(const OpenRequest& request) {
   Recording recording;
   recording.list_path = request.path;
@@ -78,9 +87,12 @@ Recording list(const OpenRequest& request) {
     const std::string name = base_name(path);
     images.push_back({name.substr(0, name.find_last_of('.')), path});
   }
-  if (are_times(images)) {
+  const NameTimes times = times_of(images);
+  if (times != NameTimes::kNone) {
     add_note(&recording, request.path + ": names are read as times");
     add_timed_images(images, TimeUnit::kSeconds, &recording);
+    // Seconds of no date begin anywhere, as numbers do: the first image has time 0.
+    if (times == NameTimes::kSeconds) begin_at_zero(&recording);
   } else {
     time_by_number(paths, request.fps > 0 ? request.fps : kUsualFps, &recording);
   }

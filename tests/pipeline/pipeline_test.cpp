@@ -235,8 +235,10 @@ TEST_CASE("wide windows correct what has left the sliding window, newer ones in 
     const Result& result = run.go();
     REQUIRE(result.outcome == Outcome::kFinished);
     CHECK(run.info().retired_keyframes > 0);
-    CHECK(run.info().loops == (wide_every > 0 ? 4 : 0));
-    CHECK(run.info().loops_removed == (wide_every > 0 ? 3 : 0));
+    // Four were given; none is taken before something has left the window, the last one stays.
+    CHECK(run.info().loops < 4);
+    CHECK((run.info().loops > 0) == (wide_every > 0));
+    CHECK(run.info().loops - run.info().loops_removed == (wide_every > 0 ? 1 : 0));
     double sum = 0.0;
     for (int32_t k = 0; k < 40; ++k) sum += Run::distance(run.pose(k).T_world_kf, 5 * k);
     return sum / 40.0;

@@ -184,6 +184,11 @@ TEST_CASE("images: names that are times are read as times") {
     }
     REQUIRE(play(open_sequence(folder.path()))[1].timestamp_ns == 1403715273312143104);
   }
+  SECTION("seconds of no date begin at 0, as numbers do") {
+    for (const char* name : {"1000.000000.png", "1000.040000.png"}) write_image(folder, name, 1);
+    REQUIRE(play(open_sequence(folder.path()))[0].timestamp_ns == 0);
+    REQUIRE(play(open_sequence(folder.path()))[1].timestamp_ns == 40000000);
+  }
   SECTION("a version is no time") {
     for (const char* name : {"1.9.png", "1.10.png"}) write_image(folder, name, 1);
     REQUIRE(play(open_sequence(folder.path()))[1].timestamp_ns == 33333333);

@@ -161,7 +161,8 @@ void destroy(unisim_predictor* predictor) { delete &self(predictor); }
 }  // namespace
 
 unisim_predictor* make_scripted_predictor() {
-  auto* scripted = new Scripted;
+  auto* scripted = new Scripted();
+  scripted->struct_size = sizeof(unisim_predictor);
   scripted->name = "scripted";
   scripted->needs_images = 1;
   scripted->observe = observe;
