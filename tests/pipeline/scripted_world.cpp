@@ -167,13 +167,13 @@ int ScriptedPredictor::two_view(int32_t i, int32_t j, unisim_pair_prediction* ou
   return UNISIM_PREDICTION_OK;
 }
 
-void ScriptedPredictor::fill_poses(double noise, Arrays* arrays) const {
+void ScriptedPredictor::fill_poses(double noise, double bend, Arrays* arrays) const {
   arrays->poses.clear();
   const int32_t first = arrays->ids[0];
   const unisim_sim3 origin = true_pose(keyframe_frame(first));
   for (const int32_t id : arrays->ids) {
     unisim_sim3 T = relative_pose(origin, true_pose(keyframe_frame(id)), window_unit(first));
-    T.t[1] += noise * std::sin(5.0 * id);
+    T.t[1] += noise * std::sin(5.0 * id) + bend * (id - first) * (id - first);
     arrays->poses.push_back(T);
   }
 }
@@ -186,7 +186,7 @@ int ScriptedPredictor::multi_view(const int32_t* ids, int32_t count,
   if (rejected_windows.count(ids[0]) != 0) return UNISIM_PREDICTION_REJECTED;
   if (failing_windows.count(ids[0]) != 0) return UNISIM_PREDICTION_FAILED;
   window_.ids.assign(ids, ids + count);
-  fill_poses(window_noise, &window_);
+  fill_poses(window_noise, window_bend, &window_);
   if (nan_windows.count(ids[0]) != 0) {
     window_.poses.back().q[2] = std::numeric_limits<double>::quiet_NaN();
   }
@@ -222,7 +222,7 @@ int ScriptedPredictor::next_wide_window(int32_t max_views, unisim_window_predict
   ++wide_given_;
   wide_.ids.clear();
   for (int32_t id = 0; id < settled; id += settled / max_views + 1) wide_.ids.push_back(id);
-  fill_poses(0.0, &wide_);
+  fill_poses(0.0, 0.0, &wide_);
   give_window(&wide_, out);
   return UNISIM_PREDICTION_OK;
 }
@@ -232,7 +232,7 @@ int ScriptedPredictor::next_revision(unisim_window_revision* out) {
   const Window window = open_revisions_.back();
   open_revisions_.pop_back();
   revision_.ids = window.ids;
-  fill_poses(0.0, &revision_);
+  fill_poses(0.0, 0.0, &revision_);
   log_ratios_.assign(window.ids.size(), 0.0);
   *out = {window.token, static_cast<int32_t>(window.ids.size()), revision_.poses.data(),
           log_ratios_.data(), 0.0};

@@ -70,6 +70,7 @@ class ScriptedPredictor {
   std::set<int32_t> nan_windows;
   bool wrong_window_ids = false;  ///< windows name keyframes that do not exist
   int64_t fails_at = -1;          ///< frame at which observe() fails
+  double window_bend = 0.0;       ///< path of a window over that of its square: drift
   double window_noise = 0.0;      ///< added to positions until the revision takes it away
   bool revises = false;           ///< every window is revised once, at finish()
   int32_t wide_every = 0;         ///< keyframes from one exact wide window to the next; 0: none
@@ -105,7 +106,7 @@ class ScriptedPredictor {
   int next_wide_window(int32_t max_views, unisim_window_prediction* out);
   int frame_pose(unisim_frame_pose* out);
   void give_window(Arrays* arrays, unisim_window_prediction* out) const;
-  void fill_poses(double noise, Arrays* arrays) const;
+  void fill_poses(double noise, double bend, Arrays* arrays) const;
   unisim_depth_map depth_of(int32_t keyframe, double unit, std::vector<float>* storage) const;
 
   int32_t keyframes_now() const;
