@@ -108,12 +108,13 @@ TEST_CASE("what leaves no score is said without options of another program") {
   const RunData run = run_of_ten_seconds();
   eval::Trajectory still = truth_at(0, 0.01, 1000);
   for (eval::Pose& pose : still.poses) pose.t = {1, 2, 3};
-  const std::vector<eval::Trajectory> truths = {truth_at(0, 0.01, 10), truth_at(500, 0.01, 10),
+  const std::vector<eval::Trajectory> truths = {truth_at(0, 5.0, 2), truth_at(500, 0.01, 10),
                                                 still};
   for (const eval::Trajectory& truth : truths) {
     const Scores scores = score(truth, run);
     CHECK_FALSE(scores.ate);
     CHECK_FALSE(scores.problem.empty());
+    INFO(scores.problem);
     CHECK(has(scores.problem, "--every-frame") == (&truth == &truths[0]));
     for (const char* option : {"--max-dt", "--align", "--delta", "--unit"}) {
       CHECK_FALSE(has(scores.problem, option));
