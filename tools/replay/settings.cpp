@@ -19,7 +19,7 @@ namespace {
 
 // Submaps of the sliding window: with the usual overlap as many keyframes as the geometric
 // predictor holds (180), since what it measures better of a submap that has left is lost. With 2
-// redkitchen ends at 0.0079 m (frames 0-499), with 8 at 0.0074, with 24 at 0.0068, where the full
+// redkitchen ends at 0.0079 m (frames 0-499), with 8 at 0.0074, with 24 at 0.0067, where the full
 // batch does. An update takes twice the time it takes with 2, the arena half as much again.
 constexpr int32_t kSlidingSubmaps = 24;
 
