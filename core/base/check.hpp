@@ -2,8 +2,8 @@
 // Checks of invariants in debug builds.
 #pragma once
 
-/// Stop a debug or sanitizer build where an invariant of the library itself is broken; nothing in
-/// release.
+/// Stop a debug build, or one with UNISIM_CHECKED, where an invariant of the library itself is
+/// broken; nothing in release.
 /// Bad input from outside is answered with a Status, never with this.
 #if defined(NDEBUG) && !defined(UNISIM_CHECKED)
 #define UNISIM_CHECK(condition) static_cast<void>(0)

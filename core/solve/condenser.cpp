@@ -58,6 +58,7 @@ bool Condenser::condense(int32_t a, int32_t b, ChainLink* link) {
   LmOptions options;
   options.max_iterations = kIterations;
   LmReport report;
+  solver_.forget();
   if (!is_ok(solver_.optimize(&graph_, options, &report))) return false;
   Mat7 covariance;
   if (!is_ok(solver_.marginal_covariance(graph_, b, &covariance))) return false;

@@ -73,6 +73,12 @@ class LevenbergMarquardt {
   /// The analysed structure; valid after a successful call of the two above.
   const BlockPattern& pattern() const { return pattern_; }
 
+  /// The next graph is another one: nothing of the last order and factor is kept.
+  void forget() {
+    structure_revision_ = 0;
+    undamped_revision_ = 0;
+  }
+
  private:
   void hold_skeleton(bool hold);
   double linearize(const Graph& graph);
