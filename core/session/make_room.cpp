@@ -11,11 +11,13 @@ void Session::make_keyframe_room() {
   if (!keyframes_.full()) return;
   const int32_t oldest = keyframes_.first();
   while (settled_ <= oldest) refuse_pair(settled_ + 1, RefusalReason::kLate);
-  while (!broken_ && keyframes_[oldest].node >= 0) {
+  // A part of the map that is forgotten takes its keyframes along.
+  while (!broken_ && keyframes_.has(oldest) && keyframes_[oldest].node >= 0) {
     if (!close_stretch()) retire_last();
   }
   if (offered_ <= oldest) {
-    if (keyframes_.pose_source(oldest) >= 0) ++counts_.retired_unread;
+    const bool kept = keyframes_.has(oldest);
+    if (kept && keyframes_.pose_source(oldest) >= 0) ++counts_.retired_unread;
     offered_ = oldest + 1;
   }
 }
