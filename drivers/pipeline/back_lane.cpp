@@ -25,11 +25,12 @@ BackLane::~BackLane() {
   thread_.join();
 }
 
-void BackLane::ask(const unisim_request* window) {
+void BackLane::ask(const unisim_request* window, bool wide) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     wants_window_ = window != nullptr;
     if (wants_window_) request_ = *window;
+    wants_wide_ = wide;
     asked_ = true;
   }
   busy_ = true;
@@ -110,7 +111,7 @@ void BackLane::copy_revisions() {
 }
 
 void BackLane::take_wide_window() {
-  if (predictor_->next_wide_window == nullptr) return;
+  if (!wants_wide_) return;
   answer_.wide = {};
   answer_.wide_status = predictor_->next_wide_window(predictor_, max_views_, &answer_.wide);
   if (answer_.wide_status == UNISIM_PREDICTION_FAILED) {

@@ -50,8 +50,8 @@ class BackLane {
   BackLane(const BackLane&) = delete;
   BackLane& operator=(const BackLane&) = delete;
 
-  /// Begins a turn. @param window NULL: none is wanted
-  void ask(const unisim_request* window);
+  /// Begins a turn. @param window NULL: none is wanted @param wide a wide window, if there is one
+  void ask(const unisim_request* window, bool wide);
   /// Between ask() and done().
   bool busy() const { return busy_; }
   /// The turn is over: wait() returns at once.
@@ -71,6 +71,7 @@ class BackLane {
   int32_t max_views_;
   bool busy_ = false;  // of the caller's thread
   bool wants_window_ = false;
+  bool wants_wide_ = false;
   unisim_request request_{};
   BackAnswer answer_;
   bool asked_ = false;  // the turn is the lane's

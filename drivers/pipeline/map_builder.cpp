@@ -173,7 +173,7 @@ void MapBuilder::take_revision(const unisim_window_revision& revision) {
 }
 
 Step MapBuilder::serve_wide_windows() {
-  if (parts_.predictor->next_wide_window == nullptr) return Step::kOk;
+  if (!wants_wide_window()) return Step::kOk;
   bool changed = false;
   for (;;) {
     unisim_window_prediction window{};
@@ -188,6 +188,10 @@ Step MapBuilder::serve_wide_windows() {
     changed = changed || taken;
   }
   return changed ? optimize(1) : Step::kOk;
+}
+
+bool MapBuilder::wants_wide_window() const {
+  return parts_.predictor->next_wide_window != nullptr && wide_windows_.wanted();
 }
 
 Step MapBuilder::take_wide_window(const unisim_window_prediction& window, bool* taken) {

@@ -103,6 +103,7 @@ class MapBuilder {
                    bool* pending);
   Step take_window(const unisim_request& request, const unisim_window_prediction& window,
                    bool* pending);
+  bool wants_wide_window() const;
   Step take_wide_window(const unisim_window_prediction& window, bool* taken);
   void begin_turn();
   bool turn_is_due() const;

@@ -34,15 +34,14 @@ bool MapBuilder::turn_is_due() const {
 
 void MapBuilder::begin_turn() {
   const bool wanted = drop_oldest_windows(&asked_);
-  const bool more =
-      parts_.predictor->next_revision != nullptr || parts_.predictor->next_wide_window != nullptr;
-  if (!wanted && !more) return;
+  const bool wide = wants_wide_window();
+  if (!wanted && !wide && parts_.predictor->next_revision == nullptr) return;
   if (wanted)
     ++report_.asked;
   else
     asked_.count = 0;
   asked_at_ = newest_;
-  lane_->ask(wanted ? &asked_ : nullptr);
+  lane_->ask(wanted ? &asked_ : nullptr, wide);
 }
 
 /// The window to ask for next. In a realtime run a predictor that is behind does not catch up by

@@ -12,10 +12,13 @@ constexpr size_t kMostKept = 8;
 
 WideWindows::WideWindows(SessionClient* session) : session_(session) { kept_.reserve(kMostKept); }
 
+bool WideWindows::wanted() const {
+  unisim_session_info info{};
+  return session_->get_info(&info) == UNISIM_OK && info.retired_keyframes > 0;
+}
+
 unisim_status WideWindows::take(const unisim_window_prediction& window, bool* taken) {
   *taken = false;
-  unisim_session_info info{};
-  if (session_->get_info(&info) != UNISIM_OK || info.retired_keyframes == 0) return UNISIM_OK;
   int32_t submap_id = -1;
   const unisim_status status = session_->add_loop(window, &submap_id);
   *taken = status == UNISIM_OK && submap_id >= 0;

@@ -20,6 +20,10 @@ class WideWindows {
  public:
   explicit WideWindows(SessionClient* session);
 
+  /// One would be taken. Predictors are not asked before: a wide window costs them time.
+  bool wanted() const;
+
+  /// For wanted() windows.
   /// @param[out] taken false: the session keeps those keyframes no longer, has no room for loops or
   ///             found the window too poor
   /// @return UNISIM_OK, or what ends the run

@@ -85,8 +85,8 @@ TEST_CASE("a realtime run does not wait for windows: the newest are taken, the o
   run.windows_take(milliseconds(400));
   const Result& result = run.go();
   REQUIRE(result.outcome == Outcome::kFinished);
-  // A run that waited for its 44 windows would take 18 s for these 3 s and drop nearly all frames; a
-  // loaded machine may drop some.
+  // A run that waited for its 44 windows would take 18 s for these 3 s and drop nearly all frames;
+  // a loaded machine may drop some.
   CHECK(result.progress.frames_dropped < 45);
   CHECK(result.lanes.asked >= 1);
   CHECK(result.lanes.late > 0);

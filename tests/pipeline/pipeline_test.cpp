@@ -237,7 +237,7 @@ TEST_CASE("wide windows correct what has left the sliding window, newer ones in 
     const Result& result = run.go();
     REQUIRE(result.outcome == Outcome::kFinished);
     CHECK(run.info().retired_keyframes > 0);
-    // 13 were given; none is taken before something has left the window, the last one stays.
+    // None is asked for before something has left the window, the last one stays.
     CHECK(run.info().loops < 13);
     CHECK((run.info().loops > 5) == (wide_every > 0));
     CHECK(run.info().loops - run.info().loops_removed == (wide_every > 0 ? 1 : 0));
@@ -248,6 +248,15 @@ TEST_CASE("wide windows correct what has left the sliding window, newer ones in 
   const double without = mean_error(0);
   const double with = mean_error(9);
   CHECK(with < 0.95 * without);
+}
+
+TEST_CASE("no wide window is asked for while the sliding window holds every keyframe") {
+  Run run;
+  run.predictor.wide_every = 9;
+  run.config.max_loops = 16;
+  REQUIRE(run.go().outcome == Outcome::kFinished);
+  CHECK(run.info().retired_keyframes == 0);
+  CHECK(run.predictor.wide_given == 0);
 }
 
 TEST_CASE("a realtime run drops the frames it is late for") {

@@ -218,8 +218,8 @@ int ScriptedPredictor::next_wide_window(int32_t max_views, unisim_window_predict
   // The newest keyframe's pair may still be open; on two threads only what was asked for counts.
   const bool concurrent = handle_.table.concurrent_windows != 0;
   const int32_t settled = concurrent ? newest_asked_ : keyframes_now() - 1;
-  if (settled / wide_every <= wide_given_) return UNISIM_PREDICTION_PENDING;
-  ++wide_given_;
+  if (settled / wide_every <= wide_given) return UNISIM_PREDICTION_PENDING;
+  wide_given = settled / wide_every;  // only the newest state is there to be cut from
   wide_.ids.clear();
   for (int32_t id = 0; id < settled; id += settled / max_views + 1) wide_.ids.push_back(id);
   fill_poses(0.0, 0.0, &wide_);

@@ -74,6 +74,7 @@ class ScriptedPredictor {
   double window_noise = 0.0;      ///< added to positions until the revision takes it away
   bool revises = false;           ///< every window is revised once, at finish()
   int32_t wide_every = 0;         ///< keyframes from one exact wide window to the next; 0: none
+  int32_t wide_given = 0;         ///< of them, the newest that was given
   bool revises_early = false;     ///< not at finish(), but as soon as it is asked
   /// Called before a window is answered, with its first keyframe, on whatever thread asks.
   std::function<void(int32_t)> before_window;
@@ -122,7 +123,6 @@ class ScriptedPredictor {
   std::vector<Window> open_revisions_;
   int64_t next_token_ = 100;
   int32_t newest_asked_ = -1;  // keyframe of a window
-  int32_t wide_given_ = 0;     // wide windows so far
   bool finished_ = false;
 };
 
