@@ -7,6 +7,7 @@
 #include <cstring>
 #include <exception>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 namespace unisim::pipeline {
@@ -38,8 +39,12 @@ std::string seconds_text(milliseconds time) {
 
 class FrameReader::Shared {
  public:
-  Shared(unisim_source* source, int depth, bool decode)
-      : source_(source), decode_(decode), slots_(static_cast<size_t>(depth) + 1) {}
+  Shared(unisim_source* source, int depth, bool decode, Queue queue)
+      : source_(source),
+        decode_(decode),
+        newest_wins_(queue == Queue::kNewest),
+        depth_(static_cast<size_t>(depth)),
+        slots_(depth_ + (newest_wins_ ? 2 : 1)) {}
 
   void read_loop();
   const Item* next(const std::atomic<bool>* stop, milliseconds patience);
@@ -57,6 +62,8 @@ class FrameReader::Shared {
     std::vector<uint8_t> pixels;
   };
 
+  bool has_room() const { return newest_wins_ || filled_ + (in_use_ ? 1 : 0) < slots_.size(); }
+  void queue_filled();
   int read_one(size_t at);
   void fill(Slot* slot);
   void check(Slot* slot);
@@ -64,10 +71,13 @@ class FrameReader::Shared {
 
   unisim_source* source_;
   bool decode_;
-  std::vector<Slot> slots_;
-  size_t head_ = 0;      // slot that next() gives out next
-  size_t filled_ = 0;    // slots the reader has filled and next() has not passed
-  bool in_use_ = false;  // slots_[head_ - 1] is still in the caller's hands
+  bool newest_wins_;
+  size_t depth_;
+  std::vector<Slot> slots_;  // in the caller's hands, queued, being filled
+  size_t head_ = 0;          // slot that next() gives out next
+  size_t tail_ = 0;          // slot that the reader fills
+  size_t filled_ = 0;        // slots the reader has filled and next() has not passed
+  bool in_use_ = false;      // slots_[head_ - 1] is still in the caller's hands
   bool stopping_ = false;
   bool ended_ = false;  // the thread has left the source for good
   Item timed_out_;
@@ -116,22 +126,35 @@ bool FrameReader::Shared::stop() {
 }
 
 void FrameReader::Shared::read_loop() {
-  size_t tail = 0;
   int status = UNISIM_FRAME_OK;
   std::unique_lock<std::mutex> lock(mutex_);
   while (status == UNISIM_FRAME_OK || status == UNISIM_FRAME_BAD) {
-    changed_.wait(lock,
-                  [this] { return stopping_ || filled_ + (in_use_ ? 1 : 0) < slots_.size(); });
+    changed_.wait(lock, [this] { return stopping_ || has_room(); });
     if (stopping_) break;
+    const size_t tail = tail_;
     lock.unlock();
     status = read_one(tail);
-    tail = (tail + 1) % slots_.size();
     lock.lock();
-    ++filled_;
+    queue_filled();
     changed_.notify_all();
   }
   ended_ = true;
   changed_.notify_all();
+}
+
+/// The slot at the tail has been filled.
+void FrameReader::Shared::queue_filled() {
+  Slot& filled = slots_[tail_];
+  filled.item.made_way = 0;
+  if (!newest_wins_ || filled_ < depth_) {
+    tail_ = (tail_ + 1) % slots_.size();
+    ++filled_;
+    return;
+  }
+  Slot& last = slots_[(tail_ + slots_.size() - 1) % slots_.size()];
+  const int64_t made_way = last.item.made_way + 1;
+  std::swap(last, filled);  // pixels keep their place in memory
+  last.item.made_way = made_way;
 }
 
 /// No exception leaves the thread: it would end the program.
@@ -193,8 +216,8 @@ void FrameReader::Shared::take_pixels(Slot* slot) {
   image.stride = static_cast<int32_t>(row);
 }
 
-FrameReader::FrameReader(unisim_source* source, int depth, bool decode)
-    : shared_(std::make_shared<Shared>(source, depth, decode)),
+FrameReader::FrameReader(unisim_source* source, int depth, bool decode, Queue queue)
+    : shared_(std::make_shared<Shared>(source, depth, decode, queue)),
       thread_([shared = shared_] { shared->read_loop(); }) {}
 
 FrameReader::~FrameReader() { stop(); }

@@ -14,15 +14,21 @@
 
 namespace unisim::pipeline {
 
-/// Reads a source on its own thread. Holds `depth` image buffers for good; frames come out in
-/// order, so the result does not depend on the timing of the two threads.
+/// Reads a source on its own thread. Holds `depth` image buffers, and one or two more, for good;
+/// frames come out in order.
 class FrameReader {
  public:
+  /// What happens when the queue is full.
+  enum class Queue {
+    kWaits,   ///< the source is left alone: every frame comes out, whatever the two threads' timing
+    kNewest,  ///< a camera does not wait: the frame that would have come out last makes way
+  };
+
   /// @param source borrowed, used by the reader's thread only; until destruction, or for ever where
   ///               holds_source() says so then
   /// @param depth  frames read ahead, >= 1
   /// @param decode false: frames come without pixels
-  FrameReader(unisim_source* source, int depth, bool decode);
+  FrameReader(unisim_source* source, int depth, bool decode, Queue queue = Queue::kWaits);
   ~FrameReader();
   FrameReader(const FrameReader&) = delete;
   FrameReader& operator=(const FrameReader&) = delete;
@@ -32,6 +38,7 @@ class FrameReader {
     int status = UNISIM_FRAME_END;  ///< UNISIM_FRAME_*
     unisim_frame frame{};           ///< valid until the next call of next()
     std::string message;            ///< for UNISIM_FRAME_BAD and _FAILED
+    int64_t made_way = 0;           ///< frames given up for this one, of Queue::kNewest
   };
 
   /// Next answer, waiting for it. After END or FAILED the same answer again.

@@ -16,7 +16,7 @@ struct Progress {
   int64_t frames = 0;          ///< taken from the source and tracked
   int64_t frames_total = -1;   ///< -1: not known
   int64_t frames_bad = 0;      ///< unreadable
-  int64_t frames_dropped = 0;  ///< late in a realtime run
+  int64_t frames_dropped = 0;  ///< late in a realtime run, given up for newer ones in a live one
   int32_t keyframes = 0;
   int32_t submaps = 0;
   int32_t state = 0;  ///< UNISIM_STATE_*

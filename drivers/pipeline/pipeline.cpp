@@ -90,9 +90,9 @@ Preparation Pipeline::Impl::prepare() {
   // Windows start w - overlap keyframes apart; one shorter window may follow.
   const int32_t step = config_.window_size - config_.window_overlap;
   const int32_t windows = config_.max_keyframes / step + 2;
-  const MapBuilder::Parts parts = {&session_,  predictor_,       &result_.times,
-                                   &messages_, &listeners_,      config_.window_size,
-                                   step,       options_.realtime};
+  const MapBuilder::Parts parts = {
+      &session_,   predictor_,          &result_.times, &messages_,
+      &listeners_, config_.window_size, step,           options_.realtime || options_.live};
   builder_ = std::make_unique<MapBuilder>(parts, static_cast<size_t>(windows));
   return preparation;
 }
@@ -121,7 +121,9 @@ const Result& Pipeline::Impl::run() {
 
 void Pipeline::Impl::read_all() {
   const bool decode = predictor_->needs_images != 0 || options_.decode_images;
-  FrameReader reader(source_, std::max(options_.queue_frames, 1), decode);
+  const auto queue = options_.live ? FrameReader::Queue::kNewest : FrameReader::Queue::kWaits;
+  FrameReader reader(source_, options_.live ? 1 : std::max(options_.queue_frames, 1), decode,
+                     queue);
   const std::chrono::milliseconds patience(static_cast<int64_t>(1000.0 * options_.patience_s));
   for (;;) {
     if (stop_ != nullptr && stop_->load()) {
@@ -137,6 +139,7 @@ void Pipeline::Impl::read_all() {
 }
 
 bool Pipeline::Impl::take(const FrameReader::Item& item) {
+  result_.progress.frames_dropped += item.made_way;
   if (item.status == UNISIM_FRAME_END) return false;
   if (item.status == UNISIM_FRAME_FAILED) {
     end(Outcome::kSourceFailed, item.message);

@@ -25,6 +25,7 @@ struct Options {
   int32_t queue_frames = 8;    ///< frames decoded ahead
   bool every_frame = false;    ///< also pose the frames between keyframes
   bool realtime = false;       ///< keep to the recorded times, drop late frames
+  bool live = false;           ///< the source is a camera: of frames that wait the newest is taken
   double patience_s = 60.0;    ///< a source that gives nothing for so long has failed; 0: never
   bool decode_images = false;  ///< decode for the listeners, also where the predictor needs none
 };

@@ -116,3 +116,39 @@ TEST_CASE("a source that gives nothing for too long has failed") {
   CHECK(result.message.find("scripted source: no frame for 1.0 s") == 0);
   CHECK(run.info().posed_keyframes == 12);
 }
+
+TEST_CASE("of the frames that wait for a live run the newest comes out") {
+  ScriptedSource source(12);
+  Gate gate;
+  source.before_frame = [&gate](int64_t frame) {
+    if (frame == 10) gate.wait();
+  };
+  FrameReader reader(source.table(), 1, true, FrameReader::Queue::kNewest);
+  gate.wait_for_visitor();  // ten frames were read, nobody took one
+  const FrameReader::Item* item = reader.next(nullptr, milliseconds(0));
+  CHECK(item->status == UNISIM_FRAME_OK);
+  CHECK(item->frame.index == 9);
+  CHECK(item->made_way == 9);
+  const uint8_t* pixels = item->frame.image.data;
+  const uint8_t first = pixels[0];
+  gate.open();
+  while (reader.holds_source()) std::this_thread::sleep_for(milliseconds(1));
+  // The frame in hand is not written to; the end of the source is never given up.
+  CHECK(item->frame.image.data == pixels);
+  CHECK(pixels[0] == first);
+  item = reader.next(nullptr, milliseconds(0));
+  CHECK(item->status == UNISIM_FRAME_END);
+  CHECK(item->made_way == 2);
+}
+
+TEST_CASE("a live run counts the frames it has no time for") {
+  Run run(400);
+  run.options.live = true;
+  run.source.before_frame = [](int64_t) { std::this_thread::sleep_for(milliseconds(1)); };
+  run.predictor.before_window = [](int32_t) { std::this_thread::sleep_for(milliseconds(20)); };
+  const Result& result = run.go();
+  CHECK(result.outcome == Outcome::kFinished);
+  CHECK(result.progress.frames_dropped > 0);
+  CHECK(result.progress.frames + result.progress.frames_dropped == 400);
+  CHECK(result.progress.frames == run.predictor.observed);
+}
