@@ -13,6 +13,7 @@ namespace unisim::replay {
 inline constexpr const char* kProgramName = "unisim-replay";
 
 struct Options {
+  const char* program = kProgramName;  ///< in messages
   std::string sequence;
   std::string out;
   std::string format = "auto";

@@ -60,6 +60,14 @@ void ProgressLine::on_progress(const pipeline::Progress& progress) {
 }
 
 void ProgressLine::print_line(const pipeline::Progress& progress) const {
+  const std::string text = text_ ? text_(progress) : usual_text(progress);
+  if (style_ == Style::kTerminal)
+    std::cerr << "\r\x1b[K" << text << std::flush;
+  else
+    std::cerr << text << "\n";
+}
+
+std::string ProgressLine::usual_text(const pipeline::Progress& progress) const {
   const double fps = static_cast<double>(progress.frames) / std::max(seconds(), 1e-3);
   std::string text;
   const int64_t done = progress.frames + progress.frames_bad + progress.frames_dropped;
@@ -77,10 +85,7 @@ void ProgressLine::print_line(const pipeline::Progress& progress) const {
                   static_cast<double>(progress.frames_total - done) / fps);
     text += line;
   }
-  if (style_ == Style::kTerminal)
-    std::cerr << "\r\x1b[K" << text << std::flush;
-  else
-    std::cerr << text << "\n";
+  return text;
 }
 
 void ProgressLine::print_json(const pipeline::Progress& progress) const {

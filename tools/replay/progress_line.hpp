@@ -3,7 +3,9 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "drivers/pipeline/listener.hpp"
@@ -22,7 +24,11 @@ class ProgressLine : public pipeline::Listener {
     kJson,      ///< objects on stdout, one a second
   };
 
-  explicit ProgressLine(Style style) : style_(style) {}
+  /// What the line says, but for kJson.
+  using Text = std::function<std::string(const pipeline::Progress&)>;
+
+  /// @param text empty: frames, rate, map, state and how long it may take
+  explicit ProgressLine(Style style, Text text = {}) : style_(style), text_(std::move(text)) {}
 
   void on_progress(const pipeline::Progress& progress) override;
   void on_message(const std::string& line) override;
@@ -38,11 +44,13 @@ class ProgressLine : public pipeline::Listener {
 
   bool due();
   void print_line(const pipeline::Progress& progress) const;
+  std::string usual_text(const pipeline::Progress& progress) const;
   void print_json(const pipeline::Progress& progress) const;
   double seconds() const;
   void end_line();
 
   Style style_;
+  Text text_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_ = start_;
   pipeline::Progress last_;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// One run: a source, a predictor, results.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "drivers/pipeline/listener.hpp"
+#include "tools/eval/trajectory.hpp"
+#include "tools/replay/inputs.hpp"
+#include "tools/replay/options.hpp"
+#include "tools/replay/progress_line.hpp"
+
+namespace unisim::replay {
+
+/// What a run reads.
+struct Input {
+  SourcePtr source;
+  eval::Trajectory truth;          ///< without poses: none
+  std::vector<std::string> notes;  ///< told before the run
+};
+
+/// What differs between the programs that run.
+struct Surroundings {
+  std::function<Input()> open;  ///< called once the folder of results is ours; throws Failure
+  std::vector<pipeline::Listener*> listeners;  ///< beside those of the results; borrowed
+  ProgressLine::Text line;                     ///< of the progress; empty: the usual one
+};
+
+/// Runs, writes the results where options.out names a folder, prints the summary. Throws Failure
+/// before anything is computed.
+/// @return exit code
+int run(const Options& options, const Surroundings& around, const std::atomic<bool>& stop);
+
+}  // namespace unisim::replay

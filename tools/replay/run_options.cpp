@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// The part of the command line that every program that runs has.
+#include "tools/replay/run_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <map>
+
+#include "tools/common/command_line.hpp"
+#include "tools/common/failure.hpp"
+#include "tools/replay/settings_fields.hpp"
+#include "tools/replay/window_layout.hpp"
+
+namespace unisim::replay {
+namespace {
+
+using tools::in_range;
+using tools::Range;
+
+const std::map<std::string, uint32_t> kFactors = {
+    {"e2v", UNISIM_FACTOR_TWO_VIEW},
+    {"anchor", UNISIM_FACTOR_SCALE_ANCHOR},
+    {"bridge", UNISIM_FACTOR_BRIDGE},
+    {"tie", UNISIM_FACTOR_TIE},
+    {"scale", UNISIM_FACTOR_SCALE},
+    {"v2s", UNISIM_FACTOR_BRIDGE | UNISIM_FACTOR_SCALE_ANCHOR},
+    {"s2s", UNISIM_FACTOR_TIE | UNISIM_FACTOR_SCALE}};
+
+}  // namespace
+
+RunOptions::RunOptions(CLI::App* app, Options* options) : options_(options) {
+  options_->settings = default_settings();
+  add_camera_options(app);
+  add_method_options(app);
+  add_model_options(app);
+  add_output_options(app);
+}
+
+void RunOptions::add_camera_options(CLI::App* app) {
+  app->add_option("--mask", options_->mask,
+                  "image of the frames' size, black where nothing is to be looked at (own body)");
+  app->add_option("--focal", focal_, "known focal length in pixels (default: estimated)")
+      ->transform(in_range(Range::above(0.0, kMostFocalPx)));
+}
+
+void RunOptions::add_method_options(CLI::App* app) {
+  app->add_option("--predictor", options_->predictor, "geometric, onnx or recorded")
+      ->check(CLI::IsMember({"geometric", "recorded", "onnx"}));
+  app->add_option("--predictions", options_->predictions, "file written by --record");
+  app->add_option("--record", options_->record, "store every prediction in this file");
+  app->add_option("--stride", stride_, "every N-th frame is a keyframe (default: by motion)")
+      ->transform(in_range(Range::whole(1, kMostStride)));
+  app->add_flag("--every-frame", every_frame_, "also pose the frames between keyframes");
+  app->add_option("--window", window_, "keyframes of a submap (default: 16)")
+      ->transform(in_range(Range::whole(2, UNISIM_MAX_VIEWS)));
+  app->add_option("--overlap", overlap_,
+                  "keyframes shared by neighbouring submaps (default: 8; of networks 2)")
+      ->transform(in_range(Range::whole(0, UNISIM_MAX_VIEWS - 1)));
+  app->add_flag("--batch", batch_,
+                "keep the whole map within a declared number of keyframes (default: the newest 24 "
+                "submaps and a skeleton of the older ones, in the same memory for ever)");
+  app->add_option("--config", config_, "TOML file, see --print-config");
+  app->add_flag("--print-config", options_->print_config, "print the effective configuration, end");
+  app->add_flag("--no-loop", "close no loops; no effect yet: none are closed");
+  app->add_option("--disable", disabled_,
+                  "leave a factor out: e2v anchor bridge tie scale, "
+                  "or a group: v2s s2s")
+      ->delimiter(',')
+      ->check(CLI::IsMember(kFactors));
+}
+
+void RunOptions::add_model_options(CLI::App* app) {
+  const char* const group = "--predictor onnx";
+  app->add_option("--model", model_, "ONNX file for pairs and windows")->group(group);
+  app->add_option("--model-2v", options_->model_pair, "ONNX file for pairs")->group(group);
+  app->add_option("--model-mv", options_->model_window, "ONNX file for windows")->group(group);
+  app->add_option("--model-encoder", options_->model_encoder,
+                  "encoder of split models (default: X.encoder.onnx beside X.onnx)")
+      ->group(group);
+  app->add_option("--provider", options_->provider, "cpu, cuda, tensorrt or what the library has")
+      ->capture_default_str()
+      ->group(group);
+  app->add_option("--threads", threads_, "of one inference (default: one per core)")
+      ->transform(in_range(Range::whole(1, kMostThreads)))
+      ->group(group);
+  app->add_option("--model-memory", memory_mb_,
+                  "MB one inference and kept keyframes may take (default: half of the machine's)")
+      ->transform(in_range(Range::whole(1, kMostMemoryMb)))
+      ->group(group);
+  app->add_option("--onnx-runtime", options_->onnx_runtime,
+                  "libonnxruntime to open (default: UNISIM_ORT_LIB, bootstrap's, the system's)")
+      ->group(group);
+}
+
+void RunOptions::add_output_options(CLI::App* app) {
+  app->add_option("--out", options_->out, "folder for the results, made if absent");
+  app->add_flag("--force", options_->force, "overwrite earlier results");
+  app->add_flag("--report,!--no-report", options_->report, "write report.html (default)");
+  app->add_flag("--quiet", options_->quiet, "no progress");
+  app->add_flag("--json", options_->json, "progress and result as JSON lines on stdout");
+}
+
+void RunOptions::apply() {
+  Settings* const settings = &options_->settings;
+  if (!config_.empty()) load_settings(config_, settings);
+  if (stride_) settings->pipeline.keyframes.stride = *stride_;
+  if (window_) {
+    settings->session.window_size = *window_;
+    settings->window_size_given = true;
+  }
+  if (overlap_) {
+    settings->session.window_overlap = *overlap_;
+    settings->window_overlap_given = true;
+  }
+  if (focal_) settings->geometric.focal_px = *focal_;
+  if (batch_) settings->session.window_submaps = 0;
+  if (every_frame_) settings->pipeline.every_frame = true;
+  if (threads_) settings->onnx.threads = *threads_;
+  if (memory_mb_) settings->onnx.memory_mb = *memory_mb_;
+  for (const std::string& name : disabled_) {
+    settings->session.disabled_factors |= kFactors.at(name);
+  }
+  take_models();
+  set_default_overlap(options_->predictor, settings);
+}
+
+/// --model serves where the role has no model of its own.
+void RunOptions::take_models() {
+  if (options_->model_pair.empty()) options_->model_pair = model_;
+  if (options_->model_window.empty()) options_->model_window = model_;
+}
+
+void RunOptions::check() const {
+  const Options& options = *options_;
+  const auto require = [](bool good, const char* line) {
+    if (!good) throw tools::Failure(tools::kExitUsage, line);
+  };
+  require(options.predictor != "recorded" || !options.predictions.empty(),
+          "--predictor recorded needs --predictions FILE");
+  require(options.predictions.empty() || options.predictor == "recorded",
+          "--predictions goes with --predictor recorded");
+  require(options.mask.empty() || options.predictor == "geometric",
+          "--mask goes with --predictor geometric");
+  const bool onnx = options.predictor == "onnx";
+  require(!onnx || (!options.model_pair.empty() && !options.model_window.empty()),
+          "--predictor onnx needs --model FILE, or --model-2v FILE and --model-mv FILE");
+  require(onnx || (options.model_pair.empty() && options.model_window.empty() &&
+                   options.model_encoder.empty()),
+          "--model, --model-2v, --model-mv and --model-encoder go with --predictor onnx");
+  check_together(options.settings);
+}
+
+}  // namespace unisim::replay
