@@ -48,6 +48,9 @@ class Listener {
   /// A pose is known for the first time; in order of time.
   virtual void on_live_pose(const LivePose& /*pose*/) {}
 
+  /// A frame has been tracked, whatever came of it; what takes time belongs here, after its pose.
+  virtual void on_frame(const unisim_frame& /*frame*/) {}
+
   /// A frame between keyframes is placed; with Options::every_frame.
   virtual void on_between_pose(const BetweenPose& /*pose*/) {}
 

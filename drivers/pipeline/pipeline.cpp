@@ -156,6 +156,7 @@ bool Pipeline::Impl::take(const FrameReader::Item& item) {
   }
   ++result_.progress.frames;
   const bool goes_on = track(item.frame);
+  for (Listener* listener : listeners_) listener->on_frame(item.frame);
   tell_progress();
   return goes_on;
 }

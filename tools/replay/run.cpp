@@ -264,7 +264,7 @@ int run(const Options& options, const Surroundings& around, const std::atomic<bo
     const auto own = results->listen(predictor.get(), options);
     listeners.insert(listeners.end(), own.begin(), own.end());
   }
-  listeners.insert(listeners.end(), around.listeners.begin(), around.listeners.end());
+  listeners.insert(listeners.end(), input.listeners.begin(), input.listeners.end());
   pipeline::Options how = options.settings.pipeline;
   how.decode_images = results.has_value();  // the map has colours, also with no need of images
   pipeline::Pipeline pipeline(how, input.source.get(), predictor.get(), config, listeners, &stop,
@@ -272,6 +272,7 @@ int run(const Options& options, const Surroundings& around, const std::atomic<bo
   prepare(&pipeline);
   const pipeline::Result& result = pipeline.run();
   progress.finish();
+  if (around.ended) around.ended(input.source.get());
   // Its last call may still come back.
   if (result.source_held) static_cast<void>(input.source.release());
   if (!results) return conclude(result, options);

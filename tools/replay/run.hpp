@@ -18,15 +18,16 @@ namespace unisim::replay {
 /// What a run reads.
 struct Input {
   SourcePtr source;
-  eval::Trajectory truth;          ///< without poses: none
-  std::vector<std::string> notes;  ///< told before the run
+  eval::Trajectory truth;                      ///< without poses: none
+  std::vector<std::string> notes;              ///< told before the run
+  std::vector<pipeline::Listener*> listeners;  ///< beside those of the results; borrowed
 };
 
 /// What differs between the programs that run.
 struct Surroundings {
   std::function<Input()> open;  ///< called once the folder of results is ours; throws Failure
-  std::vector<pipeline::Listener*> listeners;  ///< beside those of the results; borrowed
-  ProgressLine::Text line;                     ///< of the progress; empty: the usual one
+  ProgressLine::Text line;      ///< of the progress; empty: the usual one
+  std::function<void(const unisim_source*)> ended;  ///< after the last frame; may be empty
 };
 
 /// Runs, writes the results where options.out names a folder, prints the summary. Throws Failure

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Keeps the images of a live run as a sequence that unisim-replay reads.
+#include "tools/live/frame_recorder.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <system_error>
+
+#include "tools/common/failure.hpp"
+#include "tools/common/text.hpp"
+
+namespace unisim::live {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int64_t kNsPerS = 1000000000;
+
+std::string name_of(int64_t number) {
+  return "rgb/" + tools::format("%06lld", static_cast<long long>(number)) + ".png";
+}
+
+}  // namespace
+
+FrameRecorder::FrameRecorder(const std::string& folder, bool force)
+    : folder_(folder), slots_(kWaiting) {
+  std::error_code error;
+  const fs::path images = fs::path(folder) / "rgb";
+  if (!force && fs::exists(images / "000000.png", error)) {
+    throw tools::Failure(tools::kExitUsage, folder +
+                                                ": holds a recording; give --force to replace "
+                                                "it");
+  }
+  fs::remove_all(images, error);
+  fs::create_directories(images, error);
+  if (error) throw tools::Failure(tools::kExitInput, folder + ": " + error.message());
+  const std::string list = folder + "/rgb.txt";
+  list_ = std::fopen(list.c_str(), "w");
+  if (list_ == nullptr) throw tools::Failure(tools::kExitInput, list + ": " + std::strerror(errno));
+  std::fprintf(list_, "# frames of unisim-live as they were tracked: timestamp_s filename\n");
+  thread_ = std::thread([this] { loop(); });
+}
+
+FrameRecorder::~FrameRecorder() { finish(); }
+
+void FrameRecorder::on_frame(const unisim_frame& frame) {
+  if (frame.image.data == nullptr) return;
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (!problem_.empty()) return;
+  if (filled_ == slots_.size()) {
+    problem_ = folder_ + ": the disk is too slow for the camera; the recording ends after " +
+               std::to_string(written_ + static_cast<int64_t>(filled_)) + " frames";
+    return;
+  }
+  Slot& slot = slots_[(head_ + filled_) % slots_.size()];
+  lock.unlock();  // the writer does not touch a slot that is not filled
+  slot.timestamp_ns = frame.timestamp_ns;
+  slot.image = frame.image;
+  const size_t row =
+      static_cast<size_t>(frame.image.width) * static_cast<size_t>(frame.image.format);
+  slot.pixels.resize(row * static_cast<size_t>(frame.image.height));
+  for (int32_t y = 0; y < frame.image.height; ++y) {
+    const size_t line = static_cast<size_t>(y);
+    std::memcpy(slot.pixels.data() + line * row,
+                frame.image.data + line * static_cast<size_t>(frame.image.stride), row);
+  }
+  lock.lock();
+  ++filled_;
+  changed_.notify_all();
+}
+
+std::string FrameRecorder::finish() {
+  if (!thread_.joinable()) return problem_;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+  if (std::fclose(list_) != 0) end(folder_ + "/rgb.txt: " + std::strerror(errno));
+  return problem_;
+}
+
+void FrameRecorder::end(const std::string& why) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (problem_.empty()) problem_ = why;
+}
+
+void FrameRecorder::loop() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  bool failed = false;
+  for (;;) {
+    changed_.wait(lock, [this] { return filled_ > 0 || stopping_; });
+    if (filled_ == 0) return;
+    const Slot& slot = slots_[head_];
+    lock.unlock();
+    const std::string why = failed ? "" : write(slot);
+    if (!why.empty()) {
+      failed = true;  // the list ends with the last whole image
+      end(why);
+    }
+    lock.lock();
+    head_ = (head_ + 1) % slots_.size();
+    --filled_;
+  }
+}
+
+/// @return why not, "" when the image is there and listed
+std::string FrameRecorder::write(const Slot& slot) {
+  const int type = slot.image.format == UNISIM_PIXEL_GRAY8 ? CV_8UC1 : CV_8UC3;
+  const cv::Mat view(slot.image.height, slot.image.width, type,
+                     const_cast<uint8_t*>(slot.pixels.data()));
+  const std::string name = name_of(written_);
+  // The least compression: larger files, a third of the time.
+  constexpr int kLevel = 1;
+  std::string why;
+  try {
+    if (!cv::imwrite(folder_ + "/" + name, view, {cv::IMWRITE_PNG_COMPRESSION, kLevel})) {
+      why = "cannot be written";
+    }
+  } catch (const std::exception& error) {
+    why = error.what();
+  }
+  const bool listed =
+      why.empty() &&
+      std::fprintf(list_, "%lld.%09lld %s\n", static_cast<long long>(slot.timestamp_ns / kNsPerS),
+                   static_cast<long long>(slot.timestamp_ns % kNsPerS), name.c_str()) > 0 &&
+      std::fflush(list_) == 0;
+  if (listed) {
+    ++written_;
+    return "";
+  }
+  if (why.empty()) why = std::strerror(errno);
+  return folder_ + ": " + why + "; the recording ends after " + std::to_string(written_) +
+         " frames, tracking goes on";
+}
+
+}  // namespace unisim::live

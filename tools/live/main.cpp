@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// unisim-live: a camera goes in, poses come out.
+#include <optional>
+
+#include "tools/common/failure.hpp"
+#include "tools/common/output.hpp"
+#include "tools/common/program.hpp"
+#include "tools/live/camera.hpp"
+#include "tools/live/frame_recorder.hpp"
+#include "tools/live/options.hpp"
+#include "tools/live/pose_age.hpp"
+#include "tools/live/scheduling.hpp"
+#include "tools/live/status_text.hpp"
+#include "tools/replay/inputs.hpp"
+#include "tools/replay/interrupt.hpp"
+#include "tools/replay/run.hpp"
+
+namespace unisim::live {
+namespace {
+
+/// One run: what listens to it lives as long as it does.
+class LiveRun {
+ public:
+  explicit LiveRun(const Options& options) : options_(options), status_(&ages_) {}
+
+  int go(const std::atomic<bool>& stop) {
+    replay::Surroundings around;
+    around.open = [this] { return open(); };
+    around.line = [this](const pipeline::Progress& progress) { return status_(progress); };
+    around.ended = [this](const unisim_source* source) { end(source); };
+    const int code = replay::run(options_.run, around, stop);
+    return code == tools::kExitDone && recording_failed_ ? tools::kExitLimit : code;
+  }
+
+ private:
+  replay::Input open() {
+    replay::Input input;
+    if (is_camera(options_.device)) {
+      int64_t offset_ns = 0;
+      input = open_camera(options_, &offset_ns);
+      ages_.set_stamp_clock(offset_ns);
+    } else {
+      input.source = replay::open_sequence(options_.run, &input.notes);
+    }
+    input.listeners.push_back(&ages_);
+    if (!options_.run.out.empty() && options_.record_images) {
+      recorder_.emplace(options_.run.out + "/recording", options_.run.force);
+      input.listeners.push_back(&*recorder_);
+    }
+    return input;
+  }
+
+  void end(const unisim_source* source) {
+    if (is_camera(options_.device)) {
+      const std::string losses = camera_losses(source);
+      if (!losses.empty()) tools::complain(kProgramName, "frames " + losses);
+    }
+    if (!recorder_) return;
+    const std::string problem = recorder_->finish();
+    recording_failed_ = !problem.empty();
+    if (recording_failed_) tools::complain(kProgramName, problem);
+  }
+
+  const Options& options_;
+  PoseAge ages_;
+  StatusText status_;
+  std::optional<FrameRecorder> recorder_;
+  bool recording_failed_ = false;
+};
+
+int run(int argc, const char* const* argv) {
+  const std::atomic<bool>& stop = replay::catch_interrupts();
+  const auto options = parse_options(argc, argv);
+  if (!options) return tools::kExitDone;
+  if (options->run.print_config) {
+    tools::print(replay::settings_text(options->run.settings));
+    return tools::kExitDone;
+  }
+  if (options->list) {
+    tools::print(camera_table());
+    return tools::kExitDone;
+  }
+  apply(options->scheduling);
+  return LiveRun(*options).go(stop);
+}
+
+}  // namespace
+}  // namespace unisim::live
+
+int main(int argc, char** argv) {
+  return unisim::tools::run_program(unisim::live::kProgramName,
+                                    [&] { return unisim::live::run(argc, argv); });
+}

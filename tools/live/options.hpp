@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// The command line of unisim-live.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "drivers/v4l2/v4l2.h"
+#include "tools/live/scheduling.hpp"
+#include "tools/replay/options.hpp"
+
+namespace unisim::live {
+
+inline constexpr const char* kProgramName = "unisim-live";
+
+/// What unisim-live has beside the options of a run.
+struct Options {
+  replay::Options run;  ///< out "": no results; sequence, format: of a recording played live
+  std::string device;   ///< as given: camera or recording
+  bool list = false;
+  bool record_images = true;  ///< with run.out: what a replay of this run needs
+  std::string pixel_format = "auto";
+  unisim_v4l2_config camera;  ///< its strings are those above
+  Scheduling scheduling;
+};
+
+/// Whether `device` names a camera: a device file, its number, or nothing.
+bool is_camera(const std::string& device);
+
+/// Reads the command line. Throws Failure.
+/// @return nothing when --help or --version has been answered
+std::optional<Options> parse_options(int argc, const char* const* argv);
+
+}  // namespace unisim::live
