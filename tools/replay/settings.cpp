@@ -11,17 +11,12 @@
 #include <system_error>
 #include <vector>
 
+#include "drivers/pipeline/session_defaults.hpp"
 #include "tools/common/failure.hpp"
 #include "tools/replay/settings_fields.hpp"
 
 namespace unisim::replay {
 namespace {
-
-// Submaps of the sliding window: with the usual overlap as many keyframes as the geometric
-// predictor holds (180), since what it measures better of a submap that has left is lost. With 2
-// redkitchen ends at 0.0079 m (frames 0-499), with 8 at 0.0074, with 24 at 0.0067, where the full
-// batch does. An update takes twice the time it takes with 2, the arena half as much again.
-constexpr int32_t kSlidingSubmaps = 24;
 
 /// Insertions, deletions and changes of a letter that turn a into b.
 size_t edit_distance(const std::string& a, const std::string& b) {
@@ -128,7 +123,7 @@ Settings default_settings() {
     throw tools::Failure(tools::kExitOther,
                          "this program and libunisim do not fit together: rebuild both");
   }
-  settings.session.window_submaps = kSlidingSubmaps;
+  settings.session.window_submaps = pipeline::kSlidingSubmaps;
   unisim_geometric_config_init(&settings.geometric, sizeof settings.geometric);
   unisim_onnx_config_init(&settings.onnx, sizeof settings.onnx);
   return settings;

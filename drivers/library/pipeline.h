@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: MIT */
+/** @file pipeline.h
+ *  From frames to poses in C: a source of frames, a predictor and a session, run on a thread of
+ *  their own.
+ *
+ *      unisim_pipeline_config config;
+ *      unisim_pipeline_config_init(&config, sizeof config);
+ *      config.source = unisim_v4l2_open(NULL, NULL, message, sizeof message);
+ *      config.live = 1;
+ *      config.on_pose = print_pose;
+ *      unisim_pipeline* pipeline = unisim_pipeline_start(&config, message, sizeof message);
+ *      while (unisim_pipeline_poll(pipeline, 1000) == UNISIM_PIPELINE_RUNS) continue;
+ *      unisim_pipeline_stop(pipeline);
+ *
+ *  The source is one of the library (v4l2.h, sequence.h) or the host's own unisim_source; the
+ *  predictor likewise (geometric.h, onnx.h, recorded.h). Both belong to the pipeline from
+ *  unisim_pipeline_start() on, also when it fails.
+ *
+ *  Callbacks are called on the pipeline's thread, one at a time, in the order of what they tell.
+ *  Tracking waits for them: they should hand on and return. Pointers are valid during the call.
+ *  They may call unisim_pipeline_ask_stop() and nothing else of this header. */
+#ifndef UNISIM_DRIVERS_LIBRARY_PIPELINE_H
+#define UNISIM_DRIVERS_LIBRARY_PIPELINE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "drivers/predictor.h"
+#include "drivers/source.h"
+#include "unisim/unisim.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** What a run is doing. */
+#define UNISIM_PIPELINE_RUNS 0
+#define UNISIM_PIPELINE_FINISHED 1 /**< the source has ended; the map is complete */
+#define UNISIM_PIPELINE_STOPPED 2  /**< it was asked to; the map is complete up to there */
+#define UNISIM_PIPELINE_FAILED 3   /**< unisim_pipeline_message() says what, where, what to do */
+
+/** A pose as it is known first, before any correction. */
+typedef struct unisim_live_pose {
+  uint32_t struct_size;    /**< sizeof this struct in the library */
+  int32_t keyframe_id;     /**< -1: a frame between keyframes */
+  int64_t timestamp_ns;    /**< of the frame */
+  unisim_sim3 T_world_cam; /**< camera to world; lengths in the map's unit */
+  int32_t state;           /**< UNISIM_STATE_* */
+  int32_t segment;         /**< poses of different segments have no common frame or scale; -1: none
+                                known */
+} unisim_live_pose;
+
+/** What an optimisation did to the poses given out before it. */
+typedef struct unisim_correction {
+  uint32_t struct_size;  /**< sizeof this struct in the library */
+  int32_t map_revision;  /**< after it */
+  int32_t first_changed; /**< keyframes that moved, see unisim_report */
+  int32_t last_changed;
+  int32_t keyframe_id;   /**< the newest one with a pose */
+  int32_t segment;       /**< of it */
+  int64_t timestamp_ns;  /**< of it */
+  unisim_sim3 T_new_old; /**< world before to world after: T_new_old * pose before = pose now */
+} unisim_correction;
+
+/** Where a run stands. */
+typedef struct unisim_pipeline_status {
+  uint32_t struct_size;   /**< sizeof this struct, set by the caller */
+  int32_t state;          /**< UNISIM_STATE_* */
+  int64_t frames;         /**< tracked */
+  int64_t frames_bad;     /**< unreadable */
+  int64_t frames_dropped; /**< late, or given up for newer ones */
+  int32_t keyframes;
+  int32_t submaps;
+} unisim_pipeline_status;
+
+/** Everything a run is started with. Fill with unisim_pipeline_config_init(), then edit. */
+typedef struct unisim_pipeline_config {
+  uint32_t struct_size;  /**< sizeof this struct, set by the caller */
+  int32_t live;          /**< 1: the source is a camera: of frames that wait the newest is taken
+                              (0) */
+  int32_t realtime;      /**< 1: a recording is played at its own pace, late frames are dropped
+                              (0) */
+  int32_t every_frame;   /**< 1: frames between keyframes get a pose too (1) */
+  int32_t stride;        /**< every N-th frame is a keyframe; 0: by motion (0) */
+  int32_t patience_ms;   /**< a source that gives nothing for so long has failed; 0: never
+                              (60000) */
+  unisim_source* source; /**< taken over (NULL: an error) */
+  unisim_predictor* predictor;  /**< taken over; NULL: the geometric one with its defaults (NULL) */
+  const unisim_config* session; /**< copied; NULL: a sliding window of 24 submaps (NULL) */
+
+  void (*on_pose)(const unisim_live_pose* pose, void* user);              /**< (NULL) */
+  void (*on_correction)(const unisim_correction* correction, void* user); /**< (NULL) */
+  void (*on_keyframe)(const unisim_pose* keyframe, void* user); /**< with its first pose (NULL) */
+  void (*on_state)(int32_t state, void* user);                  /**< it has changed (NULL) */
+  void (*on_message)(const char* line, void* user);             /**< worth telling (NULL) */
+  void* user;                                                   /**< of the callbacks (NULL) */
+} unisim_pipeline_config;
+
+/** A run. */
+typedef struct unisim_pipeline unisim_pipeline;
+
+/** Defaults for every field.
+ *  @param[out] config      struct to fill
+ *  @param      struct_size sizeof(unisim_pipeline_config) of the caller */
+void unisim_pipeline_config_init(unisim_pipeline_config* config, size_t struct_size);
+
+/** Make the session and start the thread.
+ *  @param[in]  config   copied; its source and predictor are taken over
+ *  @param[out] message  on failure one line: what, where, what to do; may be NULL
+ *  @param      capacity bytes of message
+ *  @return NULL on failure; else free with unisim_pipeline_stop() */
+unisim_pipeline* unisim_pipeline_start(const unisim_pipeline_config* config, char* message,
+                                       size_t capacity);
+
+/** Wait for the end of the run.
+ *  @param pipeline   live pipeline
+ *  @param timeout_ms wait so long at most; 0: not at all
+ *  @return UNISIM_PIPELINE_* */
+int unisim_pipeline_poll(unisim_pipeline* pipeline, int32_t timeout_ms);
+
+/** Why the run failed.
+ *  @param pipeline that unisim_pipeline_poll() says FAILED of
+ *  @return one line owned by the pipeline; "" where it did not */
+const char* unisim_pipeline_message(const unisim_pipeline* pipeline);
+
+/** Where the run stands. From any thread but those of callbacks.
+ *  @param      pipeline live pipeline
+ *  @param[out] status   filled as far as its struct_size reaches */
+void unisim_pipeline_get_status(const unisim_pipeline* pipeline, unisim_pipeline_status* status);
+
+/** The newest pose, as on_pose() told it: for hosts that would rather ask. From any thread but
+ *  those of callbacks.
+ *  @param      pipeline live pipeline
+ *  @param[out] pose     struct_size set by the caller, filled as far as it reaches
+ *  @return 1; 0 while there is none */
+int unisim_pipeline_get_pose(const unisim_pipeline* pipeline, unisim_live_pose* pose);
+
+/** Ask the run to end; it does within a second. From any thread, callbacks and signal handlers too.
+ *  @param pipeline live pipeline */
+void unisim_pipeline_ask_stop(unisim_pipeline* pipeline);
+
+/** End the run if it goes on, wait for it, free everything. NULL is fine.
+ *  @return how the run ended, UNISIM_PIPELINE_* */
+int unisim_pipeline_stop(unisim_pipeline* pipeline);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+// The C face of the pipeline: a run on a thread of its own.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "drivers/geometric/geometric.h"
+#include "drivers/library/pipeline.h"
+#include "drivers/pipeline/pipeline.hpp"
+#include "drivers/pipeline/session_defaults.hpp"
+#include "drivers/pipeline/similarity.hpp"
+
+namespace {
+
+using unisim::pipeline::LivePose;
+using unisim::pipeline::Outcome;
+using unisim::pipeline::Pipeline;
+using unisim::pipeline::Preparation;
+using unisim::pipeline::Progress;
+
+struct Destroy {
+  void operator()(unisim_source* source) const { source->destroy(source); }
+  void operator()(unisim_predictor* predictor) const { predictor->destroy(predictor); }
+};
+
+void write_line(const std::string& line, char* message, size_t capacity) {
+  if (message != nullptr && capacity > 0) std::snprintf(message, capacity, "%s", line.c_str());
+}
+
+/// The caller's struct may be smaller or larger than ours: what both know is copied, the rest of a
+/// larger one is zero.
+template <typename Struct>
+void write_struct(const Struct& ours, Struct* theirs) {
+  const uint32_t size = theirs->struct_size;
+  const size_t known = std::min<size_t>(size, sizeof ours);
+  std::memset(static_cast<void*>(theirs), 0, size);
+  std::memcpy(static_cast<void*>(theirs), &ours, known);
+  theirs->struct_size = size;
+}
+
+}  // namespace
+
+/// The run, and what listens to it for the callbacks.
+struct unisim_pipeline : unisim::pipeline::Listener {
+  explicit unisim_pipeline(const unisim_pipeline_config& given) : config(given) {}
+
+  Preparation prepare();
+  void start();
+  int wait(std::chrono::milliseconds time);
+  int end();
+
+  void on_live_pose(const LivePose& pose) override;
+  void on_optimized(const unisim_report& report) override;
+  void on_progress(const Progress& progress) override;
+  void on_message(const std::string& line) override;
+
+  bool read_pose(int32_t keyframe, unisim_pose* pose) const;
+  void finish(int how, const std::string& why);
+
+  unisim_pipeline_config config;
+  std::unique_ptr<unisim_source, Destroy> source;
+  std::unique_ptr<unisim_predictor, Destroy> predictor;
+  std::unique_ptr<Pipeline> run;
+  std::atomic<bool> stop{false};
+  std::thread thread;
+
+  // of the pipeline's thread
+  int32_t state = UNISIM_STATE_INIT;
+  unisim_pose newest{};  // keyframe as those who listen have it; struct_size 0: none
+  int32_t revision = 0;
+
+  mutable std::mutex mutex;
+  std::condition_variable ended;
+  int how_it_stands = UNISIM_PIPELINE_RUNS;
+  std::string why;
+  unisim_pipeline_status status{};
+  unisim_live_pose live{};  // struct_size 0: none yet
+};
+
+Preparation unisim_pipeline::prepare() {
+  using Answer = Preparation::Answer;
+  if (predictor == nullptr) {
+    char line[256] = "";
+    predictor.reset(unisim_geometric_create(nullptr, line, sizeof line));
+    if (predictor == nullptr) return {Answer::kBadConfiguration, line};
+  }
+  unisim_config session{};
+  if (config.session != nullptr) {
+    session = *config.session;
+  } else {
+    if (unisim_config_init(&session, sizeof session) != UNISIM_OK) {
+      return {Answer::kFailed, "libunisim and libunisim_drivers do not fit together"};
+    }
+    session.window_submaps = unisim::pipeline::kSlidingSubmaps;
+    session.window_overlap = unisim::pipeline::usual_overlap(predictor->name, session.window_size);
+  }
+  unisim::pipeline::Options options;
+  options.live = config.live != 0;
+  options.realtime = config.realtime != 0;
+  options.every_frame = config.every_frame != 0;
+  options.keyframes.stride = config.stride;
+  options.patience_s = config.patience_ms / 1000.0;
+  if (config.session == nullptr) {
+    session.max_keyframes =
+        unisim::pipeline::keyframe_capacity(session, -1, options.keyframes, session.max_keyframes);
+  }
+  run = std::make_unique<Pipeline>(options, source.get(), predictor.get(), session,
+                                   std::vector<Listener*>{this}, &stop);
+  return run->prepare();
+}
+
+void unisim_pipeline::start() {
+  thread = std::thread([this] {
+    try {
+      const auto& result = run->run();
+      if (result.source_held) static_cast<void>(source.release());  // it may still come back
+      const bool failed =
+          result.outcome != Outcome::kFinished && result.outcome != Outcome::kStopped;
+      finish(failed                                ? UNISIM_PIPELINE_FAILED
+             : result.outcome == Outcome::kStopped ? UNISIM_PIPELINE_STOPPED
+                                                   : UNISIM_PIPELINE_FINISHED,
+             failed ? result.message : "");
+    } catch (const std::exception& error) {
+      finish(UNISIM_PIPELINE_FAILED, error.what());
+    }
+  });
+}
+
+void unisim_pipeline::finish(int how, const std::string& line) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  how_it_stands = how;
+  why = line;
+  ended.notify_all();
+}
+
+int unisim_pipeline::wait(std::chrono::milliseconds time) {
+  std::unique_lock<std::mutex> lock(mutex);
+  ended.wait_for(lock, time, [this] { return how_it_stands != UNISIM_PIPELINE_RUNS; });
+  return how_it_stands;
+}
+
+int unisim_pipeline::end() {
+  stop.store(true);
+  if (thread.joinable()) thread.join();
+  return how_it_stands;
+}
+
+bool unisim_pipeline::read_pose(int32_t keyframe, unisim_pose* pose) const {
+  *pose = {};
+  pose->struct_size = sizeof *pose;
+  return unisim_get_pose(run->session(), keyframe, pose) == UNISIM_OK;
+}
+
+void unisim_pipeline::on_live_pose(const LivePose& pose) {
+  unisim_pose keyframe{};
+  if (pose.keyframe_id >= 0 && read_pose(pose.keyframe_id, &keyframe)) {
+    newest = keyframe;
+    state = keyframe.state;
+  }
+  unisim_live_pose told{};
+  told.struct_size = sizeof told;
+  told.keyframe_id = pose.keyframe_id;
+  told.timestamp_ns = pose.timestamp_ns;
+  told.T_world_cam = pose.T_world_cam;
+  told.state = state;
+  told.segment = newest.struct_size > 0 ? newest.segment : -1;
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    live = told;
+  }
+  if (config.on_pose != nullptr) config.on_pose(&told, config.user);
+  if (keyframe.struct_size > 0 && config.on_keyframe != nullptr) {
+    config.on_keyframe(&keyframe, config.user);
+  }
+}
+
+/// The jump from where listeners have the newest keyframe to where it is now.
+void unisim_pipeline::on_optimized(const unisim_report& report) {
+  if (report.map_revision == revision) return;
+  revision = report.map_revision;
+  unisim_pose now{};
+  if (newest.struct_size == 0 || !read_pose(newest.keyframe_id, &now)) return;
+  unisim_correction correction{};
+  correction.struct_size = sizeof correction;
+  correction.map_revision = report.map_revision;
+  correction.first_changed = report.first_changed;
+  correction.last_changed = report.last_changed;
+  correction.keyframe_id = now.keyframe_id;
+  correction.segment = now.segment;
+  correction.timestamp_ns = now.timestamp_ns;
+  correction.T_new_old =
+      unisim::pipeline::compose(now.T_world_kf, unisim::pipeline::inverse(newest.T_world_kf));
+  newest = now;
+  if (config.on_correction != nullptr) config.on_correction(&correction, config.user);
+}
+
+void unisim_pipeline::on_progress(const Progress& progress) {
+  bool changed = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    changed = status.state != progress.state;
+    status.state = progress.state;
+    status.frames = progress.frames;
+    status.frames_bad = progress.frames_bad;
+    status.frames_dropped = progress.frames_dropped;
+    status.keyframes = progress.keyframes;
+    status.submaps = progress.submaps;
+  }
+  state = progress.state;
+  if (changed && config.on_state != nullptr) config.on_state(state, config.user);
+}
+
+void unisim_pipeline::on_message(const std::string& line) {
+  if (config.on_message != nullptr) config.on_message(line.c_str(), config.user);
+}
+
+void unisim_pipeline_config_init(unisim_pipeline_config* config, size_t struct_size) {
+  unisim_pipeline_config defaults{};
+  defaults.struct_size = sizeof defaults;
+  defaults.every_frame = 1;
+  defaults.patience_ms = 60000;
+  config->struct_size = static_cast<uint32_t>(struct_size);
+  write_struct(defaults, config);
+}
+
+unisim_pipeline* unisim_pipeline_start(const unisim_pipeline_config* config, char* message,
+                                       size_t capacity) {
+  if (config == nullptr || config->struct_size < sizeof *config) {
+    write_line(
+        "pipeline: struct_size is not one this library knows; call "
+        "unisim_pipeline_config_init()",
+        message, capacity);
+    return nullptr;
+  }
+  try {
+    auto pipeline = std::make_unique<unisim_pipeline>(*config);
+    pipeline->source.reset(config->source);
+    pipeline->predictor.reset(config->predictor);
+    if (config->source == nullptr) {
+      write_line("pipeline: no source; open one with unisim_v4l2_open() or unisim_sequence_open()",
+                 message, capacity);
+      return nullptr;
+    }
+    const Preparation preparation = pipeline->prepare();
+    if (preparation.answer != Preparation::Answer::kReady) {
+      write_line(preparation.message, message, capacity);
+      return nullptr;
+    }
+    pipeline->start();
+    return pipeline.release();
+  } catch (const std::exception& error) {
+    write_line(std::string("pipeline: ") + error.what(), message, capacity);
+    return nullptr;
+  }
+}
+
+int unisim_pipeline_poll(unisim_pipeline* pipeline, int32_t timeout_ms) {
+  return pipeline->wait(std::chrono::milliseconds(std::max(timeout_ms, 0)));
+}
+
+const char* unisim_pipeline_message(const unisim_pipeline* pipeline) {
+  const std::lock_guard<std::mutex> lock(pipeline->mutex);
+  return pipeline->why.c_str();
+}
+
+void unisim_pipeline_get_status(const unisim_pipeline* pipeline, unisim_pipeline_status* status) {
+  const std::lock_guard<std::mutex> lock(pipeline->mutex);
+  write_struct(pipeline->status, status);
+}
+
+int unisim_pipeline_get_pose(const unisim_pipeline* pipeline, unisim_live_pose* pose) {
+  const std::lock_guard<std::mutex> lock(pipeline->mutex);
+  if (pipeline->live.struct_size == 0) return 0;
+  write_struct(pipeline->live, pose);
+  return 1;
+}
+
+void unisim_pipeline_ask_stop(unisim_pipeline* pipeline) { pipeline->stop.store(true); }
+
+int unisim_pipeline_stop(unisim_pipeline* pipeline) {
+  if (pipeline == nullptr) return UNISIM_PIPELINE_FINISHED;
+  const int how = pipeline->end();
+  delete pipeline;
+  return how;
+}
