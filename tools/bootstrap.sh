@@ -12,7 +12,7 @@ readonly PACKAGES="cmake g++ ninja-build pkg-config python3 libeigen3-dev libope
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev catch2 liblcm-dev liblcm-bin"
 readonly CONTRIBUTOR_PACKAGES="ccache clang clang-format-19 clang-tidy-19 shellcheck doxygen
   python3-numpy python3-pil chromium ffmpeg g++-aarch64-linux-gnu g++-arm-linux-gnueabihf
-  g++-riscv64-linux-gnu qemu-user-static"
+  g++-riscv64-linux-gnu qemu-user-static qemu-system-x86 busybox-static cpio"
 
 usage() {
   cat <<'TEXT'

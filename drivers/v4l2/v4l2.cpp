@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// The C functions of this driver over its classes.
+#include "drivers/v4l2/v4l2.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <string>
+
+#include "drivers/v4l2/failure.hpp"
+#include "drivers/v4l2/open.hpp"
+#include "drivers/v4l2/settings.hpp"
+#include "drivers/v4l2/source.hpp"
+
+namespace {
+
+using unisim::v4l2::CameraSource;
+
+const CameraSource* self(const unisim_source* source) {
+  return static_cast<const CameraSource*>(source);
+}
+
+}  // namespace
+
+unisim_source* unisim::v4l2::open_camera(Io& io, const unisim_v4l2_config* config, int32_t* problem,
+                                         char* message, size_t message_size) {
+  int32_t kind = UNISIM_V4L2_OK;
+  std::string failure;
+  unisim_source* source = nullptr;
+  try {
+    source = new CameraSource(io, check_settings(config));
+  } catch (const DeviceError& error) {
+    kind = error.problem();
+    failure = error.what();
+  } catch (const std::exception& error) {
+    kind = UNISIM_V4L2_FAILED;
+    failure = std::string("camera: ") + error.what();
+  }
+  if (problem != nullptr) *problem = kind;
+  if (message != nullptr && message_size > 0) {
+    std::snprintf(message, message_size, "%s", failure.c_str());
+  }
+  return source;
+}
+
+unisim_source* unisim_v4l2_open(const unisim_v4l2_config* config, int32_t* problem, char* message,
+                                size_t message_size) {
+  return unisim::v4l2::open_camera(unisim::v4l2::system_io(), config, problem, message,
+                                   message_size);
+}
+
+void unisim_v4l2_get_mode(const unisim_source* source, unisim_v4l2_mode* mode) {
+  unisim_v4l2_mode all = self(source)->mode();
+  all.struct_size = mode->struct_size;
+  std::memcpy(mode, &all, std::min<size_t>(mode->struct_size, sizeof all));
+}
+
+const char* unisim_v4l2_note(const unisim_source* source, int32_t index) {
+  const auto& notes = self(source)->notes();
+  return index >= 0 && static_cast<size_t>(index) < notes.size()
+             ? notes[static_cast<size_t>(index)].c_str()
+             : nullptr;
+}
+
+void unisim_v4l2_get_statistics(const unisim_source* source, unisim_v4l2_statistics* statistics) {
+  const unisim::v4l2::Counters& counters = self(source)->counters();
+  const unisim_v4l2_statistics all = {statistics->struct_size,
+                                      0,
+                                      counters.frames,
+                                      counters.lost,
+                                      counters.superseded,
+                                      counters.errors,
+                                      counters.bad,
+                                      counters.restamped,
+                                      counters.restarts,
+                                      counters.reconnects};
+  std::memcpy(statistics, &all, std::min<size_t>(statistics->struct_size, sizeof all));
+}
