@@ -55,12 +55,13 @@ function(unisim_vectorised_sources target)
 endfunction()
 
 # unisim_add_tests(LABEL LIBS...): one Catch2 program from all *.cpp of the calling folder, each test
-# case registered with CTest under LABEL.
+# case registered with CTest under LABEL. A case that cannot run says WARN("skipped: why"). An exit code
+# cannot say it: that of Catch2 2 is the number of failures.
 function(unisim_add_tests label)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_executable(unisim-test-${label} ${sources})
   unisim_target_defaults(unisim-test-${label})
   target_link_libraries(unisim-test-${label} PRIVATE unisim_test_main ${ARGN})
   catch_discover_tests(unisim-test-${label} TEST_PREFIX "${label}: "
-    PROPERTIES LABELS ${label} SKIP_RETURN_CODE 4)
+    PROPERTIES LABELS ${label} SKIP_REGULAR_EXPRESSION "warning:[^a-z]+skipped: ")
 endfunction()

@@ -6,7 +6,7 @@
 #include <cctype>
 
 #include "drivers/onnx/error.hpp"
-#include "drivers/onnx/memory_use.hpp"
+#include "drivers/onnx/runtime/memory_use.hpp"
 
 namespace unisim::onnx {
 namespace {

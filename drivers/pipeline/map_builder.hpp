@@ -106,7 +106,7 @@ class MapBuilder {
   bool wants_wide_window() const;
   Step take_wide_window(const unisim_window_prediction& window, bool* taken);
   void begin_turn();
-  bool turn_is_due() const;
+  bool turn_is_due();
   Step end_turn();
   Step take_turn(const BackAnswer& answer);
   bool drop_oldest_windows(unisim_request* oldest);

@@ -27,9 +27,14 @@ Step MapBuilder::serve_back() {
   return step;
 }
 
-/// By counts, so that a replay is the same twice; a robot takes what is there.
-bool MapBuilder::turn_is_due() const {
-  return parts_.realtime ? lane_->answered() : newest_ >= asked_at_ + report_.lag;
+/// By counts, so that a replay is the same twice; a robot takes what is there. A turn with no
+/// window in it makes no window wait: a predictor that could say more and does not has the same
+/// result as one that cannot.
+bool MapBuilder::turn_is_due() {
+  if (parts_.realtime) return lane_->answered();
+  unisim_request window;
+  return newest_ >= asked_at_ + report_.lag ||
+         (asked_.count == 0 && next_request(UNISIM_REQUEST_WINDOW, &window));
 }
 
 void MapBuilder::begin_turn() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Metadata of a model: read, or refused with the key's name.
-#include "drivers/onnx/contract.hpp"
+#include "drivers/onnx/model/contract.hpp"
 
 #include <map>
 

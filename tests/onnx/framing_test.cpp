@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // From the image to the model's input and exactly back.
-#include "drivers/onnx/framing.hpp"
+#include "drivers/onnx/image/framing.hpp"
 
 #include <numeric>
 #include <vector>
 
-#include "drivers/onnx/preprocessor.hpp"
+#include "drivers/onnx/image/preprocessor.hpp"
 #include "tests/onnx/predictor_fixture.hpp"
 
 using namespace unisim::onnx;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // After warm-up the driver takes no memory: what the runtime does inside is counted apart.
-#include "drivers/onnx/role.hpp"
+#include "drivers/onnx/predict/role.hpp"
 #include "tests/alloc/malloc_counter.hpp"
 #include "tests/onnx/predictor_fixture.hpp"
 

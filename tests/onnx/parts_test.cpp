@@ -4,14 +4,14 @@
 #include <limits>
 #include <vector>
 
-#include "drivers/onnx/cost.hpp"
 #include "drivers/onnx/error.hpp"
-#include "drivers/onnx/memory_use.hpp"
-#include "drivers/onnx/nearest_rotation.hpp"
-#include "drivers/onnx/peak_memory.hpp"
-#include "drivers/onnx/quantile.hpp"
-#include "drivers/onnx/refused_pairs.hpp"
-#include "drivers/onnx/view_store.hpp"
+#include "drivers/onnx/predict/nearest_rotation.hpp"
+#include "drivers/onnx/predict/quantile.hpp"
+#include "drivers/onnx/predict/refused_pairs.hpp"
+#include "drivers/onnx/predict/view_store.hpp"
+#include "drivers/onnx/runtime/cost.hpp"
+#include "drivers/onnx/runtime/memory_use.hpp"
+#include "drivers/onnx/runtime/peak_memory.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace unisim::onnx;

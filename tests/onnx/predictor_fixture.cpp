@@ -3,7 +3,7 @@
 #include "tests/onnx/predictor_fixture.hpp"
 
 #include "drivers/onnx/error.hpp"
-#include "drivers/onnx/runtime.hpp"
+#include "drivers/onnx/runtime/runtime.hpp"
 
 namespace unisim::testing {
 

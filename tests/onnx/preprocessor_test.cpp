@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pixels to the numbers a model takes.
-#include "drivers/onnx/preprocessor.hpp"
+#include "drivers/onnx/image/preprocessor.hpp"
 
 #include "tests/onnx/predictor_fixture.hpp"
 

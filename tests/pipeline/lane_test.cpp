@@ -54,6 +54,18 @@ TEST_CASE("a replay gives the same bits with a slow and with a fast lane") {
   }
 }
 
+TEST_CASE("a predictor that could revise and does not has the bits of one that cannot") {
+  ConcurrentRun could;
+  ConcurrentRun cannot;
+  cannot.predictor.table()->next_revision = nullptr;
+  cannot.predictor.table()->next_wide_window = nullptr;
+  for (ConcurrentRun* run : {&could, &cannot}) REQUIRE(run->go().outcome == Outcome::kFinished);
+  REQUIRE(could.listener.live.size() == cannot.listener.live.size());
+  for (size_t k = 0; k < could.listener.live.size(); ++k) {
+    REQUIRE(same_bits(could.listener.live[k].T_world_cam, cannot.listener.live[k].T_world_cam));
+  }
+}
+
 TEST_CASE("the answer for a window comes into the map a stated number of keyframes later") {
   ConcurrentRun run;
   run.windows_take(milliseconds(20));
