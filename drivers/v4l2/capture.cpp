@@ -14,6 +14,15 @@
 namespace unisim::v4l2 {
 namespace {
 
+// The driver's stamp; 0, which is of no clock, for one that no clock will ever show.
+int64_t stamp_of(const v4l2_buffer& buffer) {
+  constexpr int64_t kMostSeconds = 9'000'000'000;
+  const int64_t seconds = buffer.timestamp.tv_sec;
+  if (seconds < 0 || seconds > kMostSeconds) return 0;
+  return seconds * 1'000'000'000 +
+         static_cast<int64_t>(buffer.timestamp.tv_usec) % 1'000'000 * 1000;
+}
+
 constexpr const char* kFlagged = "flagged as damaged by the camera's driver";
 constexpr const char* kShort = "shorter than an image";
 constexpr const char* kStale = "left over from before the camera was started";
@@ -83,8 +92,7 @@ int Capture::drain() {
 }
 
 void Capture::note(const v4l2_buffer& buffer, StampClock::Now now) {
-  const int64_t raw_ns = static_cast<int64_t>(buffer.timestamp.tv_sec) * 1'000'000'000 +
-                         static_cast<int64_t>(buffer.timestamp.tv_usec) * 1000;
+  const int64_t raw_ns = stamp_of(buffer);
   Ready& ready = ready_[ready_count_++];
   ready.buffer = buffer.index;
   ready.bytes = std::min<size_t>(buffer.bytesused, device_->buffers().length(buffer.index));
@@ -125,9 +133,9 @@ const char* Capture::defect_of(const v4l2_buffer& buffer, size_t bytes, int64_t 
 
 // The caller was away for so long that the camera ran out of buffers: the newest frame here is not
 // the camera's newest, which is one period away. Two periods are the age of a frame that was just
-// missed.
+// missed. With one buffer it cannot be told from a camera that is slow itself.
 bool Capture::too_old() const {
-  if (ready_count_ < given_) return false;
+  if (given_ < 2 || ready_count_ < given_) return false;
   const Ready& newest = ready_[ready_count_ - 1];
   const int64_t since = newest.measured ? newest.stamp_ns : last_take_ns_;
   return io_.monotonic_ns() - since > 2 * device_->period_ns();

@@ -2,6 +2,8 @@
 // One open and streaming camera.
 #include "drivers/v4l2/device.hpp"
 
+#include <algorithm>
+
 #include "drivers/v4l2/failure.hpp"
 
 namespace unisim::v4l2 {
@@ -24,7 +26,9 @@ Device::Device(Io& io, const std::string& path, const Settings& settings, Contro
     restore_controls(io_, handle_.fd(), *memory_);
     throw;
   }
-  period_ns_ = static_cast<int64_t>(1e9 / (mode_.fps > 0 ? mode_.fps : config.fps));
+  // Within what any camera does: a driver may say anything.
+  const double fps = std::clamp(mode_.fps > 0 ? mode_.fps : config.fps, 0.01, 10000.0);
+  period_ns_ = static_cast<int64_t>(1e9 / fps);
 }
 
 Device::~Device() {

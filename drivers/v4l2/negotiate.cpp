@@ -152,7 +152,8 @@ Mode mode_of(const v4l2_pix_format& pixels, const std::string& device) {
   }
   const int32_t row = row_bytes(mode.fourcc, mode.width);
   // Some drivers leave the stride at 0, or fill in that of another format.
-  mode.stride = row == 0 ? 0 : std::max(row, static_cast<int32_t>(pixels.bytesperline & 0xffffff));
+  const bool sane = pixels.bytesperline < (1U << 24);
+  mode.stride = row == 0 ? 0 : std::max(row, sane ? static_cast<int32_t>(pixels.bytesperline) : 0);
   mode.needed_bytes = needed_bytes(mode.fourcc, mode.width, mode.height, mode.stride);
   return mode;
 }

@@ -86,6 +86,8 @@ TEST_CASE("whatever stamps a camera gives, those of the frames grow and are not 
       [](int64_t now, uint32_t) { return now + 30'000'000; },
       [](int64_t now, uint32_t n) { return n % 3 == 0 ? now - kSecond : now; },
       [](int64_t now, uint32_t) { return now / kSecond * kSecond; },
+      [](int64_t, uint32_t) { return INT64_MAX; },
+      [](int64_t, uint32_t) { return -kSecond; },
       [](int64_t now, uint32_t) { return now + 1'700'000'000 * kSecond; },
   };
   for (const auto habit : habits) {
