@@ -175,7 +175,11 @@ bool Pipeline::Impl::track(const unisim_frame& frame) {
                   "frame " + std::to_string(frame.index) + ": " + predictor_->message(predictor_));
     return true;
   }
-  if (!selector_.choose(frame.index, motion)) {
+  // Frames given up for want of time do not count: a replay of those that were tracked chooses the
+  // same keyframes.
+  const bool own_pace = options_.live || options_.realtime;
+  const int64_t number = own_pace ? result_.progress.frames - 1 : frame.index;
+  if (!selector_.choose(number, motion)) {
     if (options_.every_frame) pose_between(frame);
     return true;
   }

@@ -78,8 +78,10 @@ int wait_for(pid_t child, const Disturbance& disturbance, const std::string& out
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-ProgramResult run(const std::string& program, const std::vector<std::string>& arguments,
-                  const Disturbance& disturbance) {
+}  // namespace
+
+ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
+                          const Disturbance& disturbance) {
   const TempFolder folder;
   const std::string out = folder / "out";
   const std::string err = folder / "err";
@@ -93,11 +95,9 @@ ProgramResult run(const std::string& program, const std::vector<std::string>& ar
   return result;
 }
 
-}  // namespace
-
 ProgramResult run_replay(const std::vector<std::string>& arguments,
                          const Disturbance& disturbance) {
-  return run(UNISIM_REPLAY_PROGRAM, arguments, disturbance);
+  return run_program(UNISIM_REPLAY_PROGRAM, arguments, disturbance);
 }
 
 std::string rendered_sequence() { return UNISIM_RENDERED "/320x240"; }

@@ -32,6 +32,10 @@ struct Disturbance {
   long max_file_bytes = -1;  ///< as on a full disk: larger files cannot be written
 };
 
+/// A program with these arguments.
+ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
+                          const Disturbance& disturbance = {});
+
 /// unisim-replay with these arguments.
 ProgramResult run_replay(const std::vector<std::string>& arguments,
                          const Disturbance& disturbance = {});
