@@ -54,6 +54,10 @@ class FrameReader::Shared {
     const std::lock_guard<std::mutex> lock(mutex_);
     return ended_;
   }
+  int32_t waiting() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return static_cast<int32_t>(filled_);
+  }
   const LatencyHistogram& decode_times() const { return decode_times_; }
 
  private:
@@ -225,6 +229,8 @@ FrameReader::~FrameReader() { stop(); }
 const FrameReader::Item* FrameReader::next(const std::atomic<bool>* stop, milliseconds patience) {
   return shared_->next(stop, patience);
 }
+
+int32_t FrameReader::waiting() const { return shared_->waiting(); }
 
 void FrameReader::stop() {
   if (!thread_.joinable()) return;

@@ -47,6 +47,9 @@ class FrameReader {
   /// @return NULL once `stop` is raised
   const Item* next(const std::atomic<bool>* stop, std::chrono::milliseconds patience);
 
+  /// Answers that are read and not yet given out.
+  int32_t waiting() const;
+
   /// Stops reading, interrupts the source and waits for it a little; safe to call more than once.
   void stop();
   /// After stop(): the source has not come back from its last call. It must not be destroyed.

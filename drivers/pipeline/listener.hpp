@@ -17,9 +17,11 @@ struct Progress {
   int64_t frames_total = -1;   ///< -1: not known
   int64_t frames_bad = 0;      ///< unreadable
   int64_t frames_dropped = 0;  ///< late in a realtime run, given up for newer ones in a live one
+  int32_t frames_waiting = 0;  ///< read ahead
   int32_t keyframes = 0;
   int32_t submaps = 0;
-  int32_t state = 0;  ///< UNISIM_STATE_*
+  int32_t state = 0;      ///< UNISIM_STATE_*
+  int64_t newest_ns = 0;  ///< time stamp of the newest frame
 };
 
 /// A pose as it was first given out, before any later correction.
@@ -59,6 +61,9 @@ class Listener {
 
   /// The measurement of `submap_id` was replaced.
   virtual void on_revision(int32_t /*submap_id*/, const unisim_window_revision& /*revision*/) {}
+
+  /// The graph was optimised; windows, revisions and loops told before are in it.
+  virtual void on_optimized(const unisim_report& /*report*/) {}
 
   /// A keyframe or submap has left the sliding window; see unisim_next_retired().
   /// @param pose of the keyframe as it stands now; NULL for a submap

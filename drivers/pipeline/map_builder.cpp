@@ -244,6 +244,7 @@ Step MapBuilder::optimize(int max_calls) {
       return Step::kOk;
     }
     if (status != UNISIM_OK) return session_failed("unisim_optimize", status);
+    for (Listener* listener : *parts_.listeners) listener->on_optimized(report);
   }
   return Step::kOk;
 }

@@ -32,6 +32,7 @@ class Pipeline::Impl {
 
   Preparation prepare();
   const Result& run();
+  const Result& result() const { return result_; }
   unisim_session* session() const { return session_.handle(); }
 
  private:
@@ -131,9 +132,11 @@ void Pipeline::Impl::read_all() {
       break;
     }
     const FrameReader::Item* item = reader.next(stop_, patience);
+    result_.progress.frames_waiting = reader.waiting();
     if (item != nullptr && !take(*item)) break;
   }
   reader.stop();
+  result_.progress.frames_waiting = 0;
   result_.source_held = reader.holds_source();
   result_.times.decode = reader.decode_times();
 }
@@ -155,6 +158,7 @@ bool Pipeline::Impl::take(const FrameReader::Item& item) {
     return true;
   }
   ++result_.progress.frames;
+  result_.progress.newest_ns = item.frame.timestamp_ns;
   const bool goes_on = track(item.frame);
   for (Listener* listener : listeners_) listener->on_frame(item.frame);
   tell_progress();
@@ -287,6 +291,8 @@ Pipeline::~Pipeline() = default;
 Preparation Pipeline::prepare() { return impl_->prepare(); }
 
 const Result& Pipeline::run() { return impl_->run(); }
+
+const Result& Pipeline::result() const { return impl_->result(); }
 
 unisim_session* Pipeline::session() const { return impl_->session(); }
 

@@ -76,6 +76,9 @@ class Pipeline {
   /// Runs the source to its end; once. Calls prepare() if that has not been done.
   const Result& run();
 
+  /// As it stands: for listeners while run() goes on. decode times come at its end.
+  const Result& result() const;
+
   /// The map, from prepare() until destruction; NULL when prepare() failed.
   unisim_session* session() const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Composition of two similarities given as C structs.
+// Composition and inverse of similarities given as C structs.
 #include "drivers/pipeline/similarity.hpp"
 
 #include <cmath>
@@ -26,6 +26,15 @@ unisim_sim3 compose(const unisim_sim3& T_a_b, const unisim_sim3& T_b_c) {
   out.t[1] = T_a_b.s * (t[1] + 2.0 * (aw * cy + az * cx - ax * cz)) + T_a_b.t[1];
   out.t[2] = T_a_b.s * (t[2] + 2.0 * (aw * cz + ax * cy - ay * cx)) + T_a_b.t[2];
   out.s = T_a_b.s * T_b_c.s;
+  return out;
+}
+
+unisim_sim3 inverse(const unisim_sim3& T_a_b) {
+  const unisim_sim3 turn = {{-T_a_b.q[0], -T_a_b.q[1], -T_a_b.q[2], T_a_b.q[3]}, {}, 1.0 / T_a_b.s};
+  unisim_sim3 out =
+      compose(turn, {{0.0, 0.0, 0.0, 1.0}, {T_a_b.t[0], T_a_b.t[1], T_a_b.t[2]}, 1.0});
+  for (double& value : out.t) value = -value;
+  out.s = turn.s;
   return out;
 }
 

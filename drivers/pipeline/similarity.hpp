@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Composition of two similarities given as C structs.
+// Composition and inverse of similarities given as C structs.
 #pragma once
 
 #include "unisim/unisim.h"
@@ -8,5 +8,8 @@ namespace unisim::pipeline {
 
 /// T_a_c = T_a_b * T_b_c. Quaternions are unit and stay so.
 unisim_sim3 compose(const unisim_sim3& T_a_b, const unisim_sim3& T_b_c);
+
+/// T_b_a of T_a_b.
+unisim_sim3 inverse(const unisim_sim3& T_a_b);
 
 }  // namespace unisim::pipeline
