@@ -40,15 +40,15 @@ typedef struct unisim_geometric_config {
 /** Defaults for every field.
  *  @param[out] config      struct to fill
  *  @param      struct_size sizeof(unisim_geometric_config) of the caller */
-void unisim_geometric_config_init(unisim_geometric_config* config, size_t struct_size);
+UNISIM_API void unisim_geometric_config_init(unisim_geometric_config* config, size_t struct_size);
 
 /** Make a geometric predictor.
  *  @param[in]  config   copied, the mask's pixels too; NULL: defaults
  *  @param[out] message  one line on failure; may be NULL
  *  @param      capacity bytes of message
  *  @return NULL on failure; else free with its destroy() */
-unisim_predictor* unisim_geometric_create(const unisim_geometric_config* config, char* message,
-                                          size_t capacity);
+UNISIM_API unisim_predictor* unisim_geometric_create(const unisim_geometric_config* config,
+                                                     char* message, size_t capacity);
 
 #ifdef __cplusplus
 }

@@ -102,46 +102,47 @@ typedef struct unisim_pipeline unisim_pipeline;
 /** Defaults for every field.
  *  @param[out] config      struct to fill
  *  @param      struct_size sizeof(unisim_pipeline_config) of the caller */
-void unisim_pipeline_config_init(unisim_pipeline_config* config, size_t struct_size);
+UNISIM_API void unisim_pipeline_config_init(unisim_pipeline_config* config, size_t struct_size);
 
 /** Make the session and start the thread.
  *  @param[in]  config   copied; its source and predictor are taken over
  *  @param[out] message  on failure one line: what, where, what to do; may be NULL
  *  @param      capacity bytes of message
  *  @return NULL on failure; else free with unisim_pipeline_stop() */
-unisim_pipeline* unisim_pipeline_start(const unisim_pipeline_config* config, char* message,
-                                       size_t capacity);
+UNISIM_API unisim_pipeline* unisim_pipeline_start(const unisim_pipeline_config* config,
+                                                  char* message, size_t capacity);
 
 /** Wait for the end of the run.
  *  @param pipeline   live pipeline
  *  @param timeout_ms wait so long at most; 0: not at all
  *  @return UNISIM_PIPELINE_* */
-int unisim_pipeline_poll(unisim_pipeline* pipeline, int32_t timeout_ms);
+UNISIM_API int unisim_pipeline_poll(unisim_pipeline* pipeline, int32_t timeout_ms);
 
 /** Why the run failed.
  *  @param pipeline that unisim_pipeline_poll() says FAILED of
  *  @return one line owned by the pipeline; "" where it did not */
-const char* unisim_pipeline_message(const unisim_pipeline* pipeline);
+UNISIM_API const char* unisim_pipeline_message(const unisim_pipeline* pipeline);
 
 /** Where the run stands. From any thread but those of callbacks.
  *  @param      pipeline live pipeline
  *  @param[out] status   filled as far as its struct_size reaches */
-void unisim_pipeline_get_status(const unisim_pipeline* pipeline, unisim_pipeline_status* status);
+UNISIM_API void unisim_pipeline_get_status(const unisim_pipeline* pipeline,
+                                           unisim_pipeline_status* status);
 
 /** The newest pose, as on_pose() told it: for hosts that would rather ask. From any thread but
  *  those of callbacks.
  *  @param      pipeline live pipeline
  *  @param[out] pose     struct_size set by the caller, filled as far as it reaches
  *  @return 1; 0 while there is none */
-int unisim_pipeline_get_pose(const unisim_pipeline* pipeline, unisim_live_pose* pose);
+UNISIM_API int unisim_pipeline_get_pose(const unisim_pipeline* pipeline, unisim_live_pose* pose);
 
 /** Ask the run to end; it does within a second. From any thread, callbacks and signal handlers too.
  *  @param pipeline live pipeline */
-void unisim_pipeline_ask_stop(unisim_pipeline* pipeline);
+UNISIM_API void unisim_pipeline_ask_stop(unisim_pipeline* pipeline);
 
 /** End the run if it goes on, wait for it, free everything. NULL is fine.
  *  @return how the run ended, UNISIM_PIPELINE_* */
-int unisim_pipeline_stop(unisim_pipeline* pipeline);
+UNISIM_API int unisim_pipeline_stop(unisim_pipeline* pipeline);
 
 #ifdef __cplusplus
 }

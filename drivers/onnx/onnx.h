@@ -48,7 +48,7 @@ typedef struct unisim_onnx_config {
 /** Defaults for every field.
  *  @param[out] config      struct to fill
  *  @param      struct_size sizeof(unisim_onnx_config) of the caller */
-void unisim_onnx_config_init(unisim_onnx_config* config, size_t struct_size);
+UNISIM_API void unisim_onnx_config_init(unisim_onnx_config* config, size_t struct_size);
 
 /** Load the models, measure and warm them, make a predictor.
  *  @param[in]  config   copied
@@ -56,30 +56,30 @@ void unisim_onnx_config_init(unisim_onnx_config* config, size_t struct_size);
  *  @param[out] message  one line on failure: what, where, what to do; may be NULL
  *  @param      capacity bytes of message
  *  @return NULL on failure; else free with its destroy() */
-unisim_predictor* unisim_onnx_create(const unisim_onnx_config* config, int32_t* problem,
-                                     char* message, size_t capacity);
+UNISIM_API unisim_predictor* unisim_onnx_create(const unisim_onnx_config* config, int32_t* problem,
+                                                char* message, size_t capacity);
 
 /** Views of a window that model and memory budget allow: the session's window_size may not be
  * larger.
  *  @param predictor of unisim_onnx_create()
  *  @return 2..config.window_size */
-int32_t unisim_onnx_window_size(const unisim_predictor* predictor);
+UNISIM_API int32_t unisim_onnx_window_size(const unisim_predictor* predictor);
 
 /** Things worth telling once: licence, cost, a window that was made smaller.
  *  @param predictor of unisim_onnx_create()
  *  @param index     0, 1, 2 ...
  *  @return one line, NULL after the last; valid until destroy() */
-const char* unisim_onnx_note(const unisim_predictor* predictor, int32_t index);
+UNISIM_API const char* unisim_onnx_note(const unisim_predictor* predictor, int32_t index);
 
 /** Times that encoders of split models ran since they were loaded: once for each keyframe and
  * encoder.
  *  @param predictor of unisim_onnx_create()
  *  @return 0 without encoder */
-int64_t unisim_onnx_encoder_runs(const unisim_predictor* predictor);
+UNISIM_API int64_t unisim_onnx_encoder_runs(const unisim_predictor* predictor);
 
 /** Measuring a model resets the high-water mark of the process's memory.
  *  @return the most it said before, in bytes; 0 when no model was measured */
-int64_t unisim_onnx_peak_before_bytes(void);
+UNISIM_API int64_t unisim_onnx_peak_before_bytes(void);
 
 /** A model of kind descriptor: one image in, one vector of unit length out. */
 typedef struct unisim_onnx_descriptor unisim_onnx_descriptor;
@@ -89,12 +89,12 @@ typedef struct unisim_onnx_descriptor unisim_onnx_descriptor;
  *  @param      path     model file
  *  @param[out] problem, message, capacity as unisim_onnx_create()
  *  @return NULL on failure; else free with unisim_onnx_descriptor_close() */
-unisim_onnx_descriptor* unisim_onnx_descriptor_open(const unisim_onnx_config* config,
-                                                    const char* path, int32_t* problem,
-                                                    char* message, size_t capacity);
+UNISIM_API unisim_onnx_descriptor* unisim_onnx_descriptor_open(const unisim_onnx_config* config,
+                                                               const char* path, int32_t* problem,
+                                                               char* message, size_t capacity);
 
 /** Numbers in a descriptor. */
-int32_t unisim_onnx_descriptor_size(const unisim_onnx_descriptor* descriptor);
+UNISIM_API int32_t unisim_onnx_descriptor_size(const unisim_onnx_descriptor* descriptor);
 
 /** Describe one image.
  *  @param      descriptor live descriptor model
@@ -102,14 +102,14 @@ int32_t unisim_onnx_descriptor_size(const unisim_onnx_descriptor* descriptor);
  *  @param[out] values     unisim_onnx_descriptor_size() floats, unit length; valid until the next
  * call
  *  @return UNISIM_PREDICTION_OK, _REJECTED, _FAILED */
-int unisim_onnx_descriptor_embed(unisim_onnx_descriptor* descriptor, const unisim_image* image,
-                                 const float** values);
+UNISIM_API int unisim_onnx_descriptor_embed(unisim_onnx_descriptor* descriptor,
+                                            const unisim_image* image, const float** values);
 
 /** One line about the last _REJECTED or _FAILED. */
-const char* unisim_onnx_descriptor_message(const unisim_onnx_descriptor* descriptor);
+UNISIM_API const char* unisim_onnx_descriptor_message(const unisim_onnx_descriptor* descriptor);
 
 /** End it; NULL is fine. */
-void unisim_onnx_descriptor_close(unisim_onnx_descriptor* descriptor);
+UNISIM_API void unisim_onnx_descriptor_close(unisim_onnx_descriptor* descriptor);
 
 #ifdef __cplusplus
 }

@@ -28,14 +28,14 @@ extern "C" {
  *  @param message_size  bytes of message
  *  @return the recorder, NULL when the file cannot be made; its name and needs_images are inner's
  */
-unisim_predictor* unisim_recorder_create(unisim_predictor* inner, const char* path,
-                                         const char* sequence_name, char* message,
-                                         size_t message_size);
+UNISIM_API unisim_predictor* unisim_recorder_create(unisim_predictor* inner, const char* path,
+                                                    const char* sequence_name, char* message,
+                                                    size_t message_size);
 
 /** Why recording stopped.
  *  @param recorder of unisim_recorder_create()
  *  @return one line, "" while all is well; valid until destroy() */
-const char* unisim_recorder_problem(const unisim_predictor* recorder);
+UNISIM_API const char* unisim_recorder_problem(const unisim_predictor* recorder);
 
 /** A predictor that gives the predictions of a file, with no images and no model. Where the file
  *  names its keyframes, observe() sets keyframe_advice to 1 or -1; a pair or window is PENDING
@@ -46,20 +46,22 @@ const char* unisim_recorder_problem(const unisim_predictor* recorder);
  * was cut off, else ""; may be NULL
  *  @param message_size bytes of message
  *  @return the predictor, NULL when the file is unreadable, damaged or of a newer version */
-unisim_predictor* unisim_recorded_open(const char* path, char* message, size_t message_size);
+UNISIM_API unisim_predictor* unisim_recorded_open(const char* path, char* message,
+                                                  size_t message_size);
 
 /** How the windows of a recording follow each other: a session asks for the same ones when its
  * window_size and window_overlap are these.
  *  @param recorded of unisim_recorded_open()
  *  @param[out] size, overlap keyframes
  *  @return 1; 0 when the file holds fewer than two windows and does not tell */
-int unisim_recorded_windows(const unisim_predictor* recorded, int32_t* size, int32_t* overlap);
+UNISIM_API int unisim_recorded_windows(const unisim_predictor* recorded, int32_t* size,
+                                       int32_t* overlap);
 
 /** Name of the predictor that made the answers in the first place: for a recording the one that was
  *  recorded, through a recorder that of the predictor inside, else the predictor's own name.
  *  @param predictor any predictor
  *  @return "geometric", ...; "" where a file does not say; valid until the predictor's destroy() */
-const char* unisim_predictor_origin(const unisim_predictor* predictor);
+UNISIM_API const char* unisim_predictor_origin(const unisim_predictor* predictor);
 
 #ifdef __cplusplus
 }

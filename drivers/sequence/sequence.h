@@ -56,19 +56,20 @@ typedef struct unisim_sequence_options {
  *  @param[out] message      on failure one line: what, where, what to do; may be NULL
  *  @param      message_size bytes of message
  *  @return the source, to be freed with its destroy(); NULL on failure */
-unisim_source* unisim_sequence_open(const char* path, const unisim_sequence_options* options,
-                                    char* message, size_t message_size);
+UNISIM_API unisim_source* unisim_sequence_open(const char* path,
+                                               const unisim_sequence_options* options,
+                                               char* message, size_t message_size);
 
 /** What was noticed at opening and does not stop a run, such as lines left out of a list.
  *  @param source one that unisim_sequence_open() gave
  *  @param i      0, 1, ...
  *  @return one line owned by the source, NULL past the last */
-const char* unisim_sequence_note(const unisim_source* source, int32_t i);
+UNISIM_API const char* unisim_sequence_note(const unisim_source* source, int32_t i);
 
 /** File of the frame that next_frame() gave last: of a video always the video.
  *  @param source one that unisim_sequence_open() gave
  *  @return owned by the source, valid until its next call; "" before the first frame */
-const char* unisim_sequence_frame_path(const unisim_source* source);
+UNISIM_API const char* unisim_sequence_frame_path(const unisim_source* source);
 
 /** What is done to stored pixels, the same for every frame. */
 typedef struct unisim_sequence_pixels {
@@ -82,7 +83,8 @@ typedef struct unisim_sequence_pixels {
 
 /** @param      source one that unisim_sequence_open() gave
  *  @param[out] pixels struct_size is the caller's, the rest is filled in as far as it reaches */
-void unisim_sequence_get_pixels(const unisim_source* source, unisim_sequence_pixels* pixels);
+UNISIM_API void unisim_sequence_get_pixels(const unisim_source* source,
+                                           unisim_sequence_pixels* pixels);
 
 #ifdef __cplusplus
 }

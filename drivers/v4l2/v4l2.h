@@ -62,7 +62,7 @@ typedef struct unisim_v4l2_config {
 /** Defaults for every field.
  *  @param[out] config      struct to fill
  *  @param      struct_size sizeof(unisim_v4l2_config) of the caller */
-void unisim_v4l2_config_init(unisim_v4l2_config* config, size_t struct_size);
+UNISIM_API void unisim_v4l2_config_init(unisim_v4l2_config* config, size_t struct_size);
 
 /** Open a camera and start it.
  *
@@ -76,8 +76,8 @@ void unisim_v4l2_config_init(unisim_v4l2_config* config, size_t struct_size);
  *  @param[out] message      on failure one line: what, where, what to do; may be NULL
  *  @param      message_size bytes of message
  *  @return the source, to be freed with its destroy(); NULL on failure */
-unisim_source* unisim_v4l2_open(const unisim_v4l2_config* config, int32_t* problem, char* message,
-                                size_t message_size);
+UNISIM_API unisim_source* unisim_v4l2_open(const unisim_v4l2_config* config, int32_t* problem,
+                                           char* message, size_t message_size);
 
 /** What came of the configuration at opening. */
 typedef struct unisim_v4l2_mode {
@@ -94,13 +94,13 @@ typedef struct unisim_v4l2_mode {
 
 /** @param      source of unisim_v4l2_open()
  *  @param[out] mode   struct_size is the caller's, the rest is filled in as far as it reaches */
-void unisim_v4l2_get_mode(const unisim_source* source, unisim_v4l2_mode* mode);
+UNISIM_API void unisim_v4l2_get_mode(const unisim_source* source, unisim_v4l2_mode* mode);
 
 /** What was noticed at opening and does not stop a run, such as a size or rate the driver changed.
  *  @param source of unisim_v4l2_open()
  *  @param index  0, 1, 2 ...
  *  @return one line owned by the source, NULL past the last */
-const char* unisim_v4l2_note(const unisim_source* source, int32_t index);
+UNISIM_API const char* unisim_v4l2_note(const unisim_source* source, int32_t index);
 
 /** What has been counted since opening. */
 typedef struct unisim_v4l2_statistics {
@@ -120,7 +120,8 @@ typedef struct unisim_v4l2_statistics {
  *  @param      source     of unisim_v4l2_open()
  *  @param[out] statistics struct_size is the caller's, the rest is filled in as far as it reaches
  */
-void unisim_v4l2_get_statistics(const unisim_source* source, unisim_v4l2_statistics* statistics);
+UNISIM_API void unisim_v4l2_get_statistics(const unisim_source* source,
+                                           unisim_v4l2_statistics* statistics);
 
 /** The cameras of this machine as a table for people: device, name and bus of each, under it the
  *  formats of use here with their sizes and highest rates. A device that cannot be looked at has a
@@ -129,7 +130,7 @@ void unisim_v4l2_get_statistics(const unisim_source* source, unisim_v4l2_statist
  *  @param      capacity bytes of table
  *  @param[out] needed   bytes that the whole table takes, its end included; may be NULL
  *  @return number of cameras */
-int32_t unisim_v4l2_list(char* table, size_t capacity, size_t* needed);
+UNISIM_API int32_t unisim_v4l2_list(char* table, size_t capacity, size_t* needed);
 
 #ifdef __cplusplus
 }

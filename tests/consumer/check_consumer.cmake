@@ -1,16 +1,20 @@
 # SPDX-License-Identifier: MIT
 # Install the library of BUILD into a fresh prefix, move it elsewhere, and build and run the user's project in C
-# against it. USES is find_package or pkg-config.
+# against it. USES is find_package or pkg-config. DRIVERS_EXAMPLE, where the second library was built, is a program for it.
 file(REMOVE_RECURSE ${WORK})
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --component unisim --prefix ${WORK}/first
   OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+if(DRIVERS_EXAMPLE)
+  execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --component unisim_drivers --prefix ${WORK}/first
+    OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+endif()
 file(RENAME ${WORK}/first ${WORK}/moved)
 
 set(ENV{PKG_CONFIG_PATH} ${WORK}/moved/${LIBDIR}/pkgconfig)
 execute_process(
   COMMAND ${CMAKE_COMMAND} -S ${PROJECT} -B ${WORK}/build -G ${GENERATOR}
     -DCMAKE_C_COMPILER=${CC} -DCMAKE_BUILD_TYPE=Release -DCONSUMER_USES=${USES}
-    -DCMAKE_PREFIX_PATH=${WORK}/moved
+    -DCMAKE_PREFIX_PATH=${WORK}/moved -DDRIVERS_EXAMPLE=${DRIVERS_EXAMPLE}
   OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK}/build COMMAND_ERROR_IS_FATAL ANY)
 
@@ -23,6 +27,10 @@ foreach(program IN LISTS programs)
     message(FATAL_ERROR "${program} needs libstdc++")
   endif()
 endforeach()
+
+if(DRIVERS_EXAMPLE)
+  execute_process(COMMAND ${WORK}/build/drivers_consumer COMMAND_ERROR_IS_FATAL ANY)
+endif()
 
 file(GLOB_RECURSE texts ${WORK}/moved/*.cmake ${WORK}/moved/*.pc)
 foreach(text IN LISTS texts)

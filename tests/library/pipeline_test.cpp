@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// Runs behind the C header.
+#include "drivers/library/pipeline.h"
+
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/pipeline/scripted_world.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace unisim::testing;
+
+namespace {
+
+/// What the callbacks of a run told.
+struct Told {
+  std::vector<unisim_live_pose> poses;
+  std::vector<unisim_correction> corrections;
+  std::vector<unisim_pose> keyframes;
+  std::vector<int32_t> states;
+  std::vector<std::string> lines;
+  unisim_pipeline** stops_after_pose = nullptr;  // asks the run to end at the tenth pose
+};
+
+Told* of(void* user) { return static_cast<Told*>(user); }
+
+/// A scripted run of 200 frames, every fifth a keyframe.
+struct CRun {
+  explicit CRun(int64_t frames = 200) : source(frames) {
+    unisim_pipeline_config_init(&config, sizeof config);
+    REQUIRE(unisim_config_init(&session, sizeof session) == UNISIM_OK);
+    session.max_keyframes = 64;
+    session.window_size = 8;
+    config.session = &session;
+    config.source = source.table();
+    config.predictor = predictor.table();
+    config.stride = 5;
+    config.user = &told;
+    config.on_pose = [](const unisim_live_pose* pose, void* user) {
+      of(user)->poses.push_back(*pose);
+      if (of(user)->stops_after_pose != nullptr && of(user)->poses.size() == 10) {
+        unisim_pipeline_ask_stop(*of(user)->stops_after_pose);
+      }
+    };
+    config.on_correction = [](const unisim_correction* one, void* user) {
+      of(user)->corrections.push_back(*one);
+    };
+    config.on_keyframe = [](const unisim_pose* pose, void* user) {
+      of(user)->keyframes.push_back(*pose);
+    };
+    config.on_state = [](int32_t state, void* user) { of(user)->states.push_back(state); };
+    config.on_message = [](const char* line, void* user) { of(user)->lines.emplace_back(line); };
+  }
+
+  unisim_pipeline* start() { return unisim_pipeline_start(&config, message, sizeof message); }
+
+  ScriptedSource source;
+  ScriptedPredictor predictor;
+  unisim_config session{};
+  unisim_pipeline_config config{};
+  Told told;
+  char message[256] = "";
+};
+
+int wait_for_end(unisim_pipeline* pipeline) {
+  int how = UNISIM_PIPELINE_RUNS;
+  while (how == UNISIM_PIPELINE_RUNS) how = unisim_pipeline_poll(pipeline, 1000);
+  return how;
+}
+
+double distance(const unisim_sim3& a, const unisim_sim3& b) {
+  return std::hypot(a.t[0] - b.t[0], a.t[1] - b.t[1], a.t[2] - b.t[2]);
+}
+
+}  // namespace
+
+TEST_CASE("a run gives poses, keyframes and states in order, and ends with its source") {
+  CRun run;
+  unisim_pipeline* const pipeline = run.start();
+  INFO(run.message);
+  REQUIRE(pipeline != nullptr);
+  CHECK(wait_for_end(pipeline) == UNISIM_PIPELINE_FINISHED);
+  CHECK(std::string(unisim_pipeline_message(pipeline)).empty());
+
+  CHECK(run.told.keyframes.size() == 40);
+  CHECK(run.told.poses.size() == 200 - 4);  // before the second keyframe nothing has a unit
+  for (size_t k = 1; k < run.told.poses.size(); ++k) {
+    REQUIRE(run.told.poses[k].timestamp_ns > run.told.poses[k - 1].timestamp_ns);
+    REQUIRE(run.told.poses[k].segment == 0);
+  }
+  REQUIRE_FALSE(run.told.states.empty());
+  CHECK(run.told.states.back() == UNISIM_STATE_TRACKING);
+
+  unisim_pipeline_status status{};
+  status.struct_size = sizeof status;
+  unisim_pipeline_get_status(pipeline, &status);
+  CHECK(status.frames == 200);
+  CHECK(status.keyframes == 40);
+  unisim_live_pose newest{};
+  newest.struct_size = sizeof newest;
+  REQUIRE(unisim_pipeline_get_pose(pipeline, &newest) == 1);
+  CHECK(newest.timestamp_ns == run.told.poses.back().timestamp_ns);
+  CHECK(unisim_pipeline_stop(pipeline) == UNISIM_PIPELINE_FINISHED);
+}
+
+TEST_CASE("corrections take the poses given out before to where they are now") {
+  CRun run;
+  run.predictor.window_noise = 0.02;
+  run.predictor.revises = run.predictor.revises_early = true;
+  unisim_pipeline* const pipeline = run.start();
+  REQUIRE(pipeline != nullptr);
+  CHECK(wait_for_end(pipeline) == UNISIM_PIPELINE_FINISHED);
+  unisim_pipeline_stop(pipeline);
+  REQUIRE(run.told.corrections.size() > 3);
+  bool moved = false;
+  for (size_t k = 0; k < run.told.corrections.size(); ++k) {
+    const unisim_correction& one = run.told.corrections[k];
+    CHECK(one.T_new_old.s > 0.0);
+    CHECK(one.first_changed <= one.last_changed);
+    if (k > 0) CHECK(one.map_revision > run.told.corrections[k - 1].map_revision);
+    moved = moved || distance(one.T_new_old, {{0, 0, 0, 1}, {0, 0, 0}, 1}) > 1e-6;
+  }
+  CHECK(moved);
+}
+
+TEST_CASE("a callback and any other thread may ask a run to stop") {
+  CRun run(1000000);
+  unisim_pipeline* pipeline = nullptr;
+  SECTION("callback") { run.told.stops_after_pose = &pipeline; }
+  SECTION("other thread") {}
+  run.source.before_frame = [&](int64_t) {
+    // The callback needs the pipeline's address, which start() is about to give.
+    while (pipeline == nullptr) std::this_thread::yield();
+  };
+  unisim_pipeline* const started = run.start();
+  REQUIRE(started != nullptr);
+  pipeline = started;
+  if (run.told.stops_after_pose == nullptr) unisim_pipeline_ask_stop(started);
+  CHECK(wait_for_end(started) == UNISIM_PIPELINE_STOPPED);
+  CHECK(unisim_pipeline_stop(started) == UNISIM_PIPELINE_STOPPED);
+}
+
+TEST_CASE("a run that fails says why") {
+  CRun run;
+  run.source.fails_at = 100;
+  unisim_pipeline* const pipeline = run.start();
+  REQUIRE(pipeline != nullptr);
+  CHECK(wait_for_end(pipeline) == UNISIM_PIPELINE_FAILED);
+  CHECK_FALSE(std::string(unisim_pipeline_message(pipeline)).empty());
+  CHECK(run.told.keyframes.size() == 20);
+  CHECK(unisim_pipeline_stop(pipeline) == UNISIM_PIPELINE_FAILED);
+}
+
+TEST_CASE("what cannot be started is refused with one line") {
+  CRun run;
+  SECTION("no source") {
+    run.config.source = nullptr;
+    CHECK(run.start() == nullptr);
+    CHECK(std::string(run.message).find("no source") != std::string::npos);
+  }
+  SECTION("a session that is refused") {
+    run.session.window_overlap = run.session.window_size;
+    CHECK(run.start() == nullptr);
+    CHECK_FALSE(std::string(run.message).empty());
+  }
+  SECTION("an older struct") {
+    run.config.struct_size = 8;
+    CHECK(run.start() == nullptr);
+    CHECK(std::string(run.message).find("struct_size") != std::string::npos);
+  }
+  SECTION("no room for the line") {
+    run.config.source = nullptr;
+    CHECK(unisim_pipeline_start(&run.config, nullptr, 0) == nullptr);
+  }
+  CHECK(unisim_pipeline_stop(nullptr) == UNISIM_PIPELINE_FINISHED);
+}
+
+TEST_CASE("structs of another size are filled as far as both sides know them") {
+  CRun run;
+  unisim_pipeline* const pipeline = run.start();
+  REQUIRE(pipeline != nullptr);
+  wait_for_end(pipeline);
+  struct Larger {
+    unisim_pipeline_status known;
+    char tail[16];
+  } larger;
+  std::memset(&larger, 0x55, sizeof larger);
+  larger.known.struct_size = sizeof larger;
+  unisim_pipeline_get_status(pipeline, &larger.known);
+  CHECK(larger.known.struct_size == sizeof larger);
+  CHECK(larger.known.frames == 200);
+  for (const char byte : larger.tail) CHECK(byte == 0);
+  unisim_pipeline_status smaller;
+  std::memset(&smaller, 0x55, sizeof smaller);
+  smaller.struct_size = 16;
+  unisim_pipeline_get_status(pipeline, &smaller);
+  CHECK(smaller.frames == 200);
+  CHECK(smaller.keyframes == 0x55555555);
+  unisim_pipeline_stop(pipeline);
+}
