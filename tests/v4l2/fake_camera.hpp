@@ -34,6 +34,8 @@ struct FakeSize {
 struct FakeFormat {
   uint32_t fourcc;
   std::vector<FakeSize> sizes;
+  int32_t step =
+      0;  ///< > 0: all sizes from the first to the last, in such steps, at the first's rates
 };
 
 struct FakeControl {

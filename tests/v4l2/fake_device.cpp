@@ -27,10 +27,15 @@ v4l2_fract interval_of(double rate) {
   return {1000, static_cast<uint32_t>(std::lround(rate * 1000))};
 }
 
+int32_t whole_steps(int32_t wish, int32_t low, int32_t high, int32_t step) {
+  return low + (std::clamp(wish, low, high) - low) / step * step;
+}
+
 // Frame intervals are asked for at one size.
 const FakeSize* size_of(const FakeCamera& camera, uint32_t fourcc, int32_t width, int32_t height) {
   const FakeFormat* format = format_of(camera, fourcc);
   if (format == nullptr) return nullptr;
+  if (format->step > 0) return &format->sizes.front();
   for (const FakeSize& size : format->sizes) {
     if (size.width == width && size.height == height) return &size;
   }
@@ -103,6 +108,16 @@ int FakeIo::list_size(const File& file, v4l2_frmsizeenum* entry) {
     return -EINVAL;
   }
   const FakeSize& size = format->sizes[entry->index];
+  if (format->step > 0) {
+    if (entry->index > 0) return -EINVAL;
+    const FakeSize& last = format->sizes.back();
+    const auto step = static_cast<uint32_t>(format->step);
+    entry->type = V4L2_FRMSIZE_TYPE_STEPWISE;
+    entry->stepwise = {
+        static_cast<uint32_t>(size.width),  static_cast<uint32_t>(last.width),  step,
+        static_cast<uint32_t>(size.height), static_cast<uint32_t>(last.height), step};
+    return 0;
+  }
   entry->type = V4L2_FRMSIZE_TYPE_DISCRETE;
   entry->discrete = {static_cast<uint32_t>(size.width), static_cast<uint32_t>(size.height)};
   return 0;
@@ -113,6 +128,12 @@ int FakeIo::list_rate(const File& file, v4l2_frmivalenum* entry) {
       size_of(*file.camera, entry->pixel_format, static_cast<int32_t>(entry->width),
               static_cast<int32_t>(entry->height));
   if (size == nullptr || entry->index >= size->rates.size()) return -EINVAL;
+  if (format_of(*file.camera, entry->pixel_format)->step > 0) {
+    entry->type = V4L2_FRMIVAL_TYPE_CONTINUOUS;
+    entry->stepwise.min = interval_of(size->rates.back());
+    entry->stepwise.max = interval_of(size->rates.front());
+    return entry->index == 0 ? 0 : -EINVAL;
+  }
   entry->type = V4L2_FRMIVAL_TYPE_DISCRETE;
   entry->discrete = interval_of(size->rates[entry->index]);
   return 0;
@@ -133,8 +154,17 @@ int FakeIo::set_format(File* file, v4l2_format* format) {
   for (const FakeSize& size : known->sizes) {
     if (error(size) < error(*nearest)) nearest = &size;
   }
-  const int32_t width = camera.forced_width > 0 ? camera.forced_width : nearest->width;
-  const int32_t height = camera.forced_height > 0 ? camera.forced_height : nearest->height;
+  FakeSize chosen = *nearest;
+  if (known->step > 0) {
+    const FakeSize& low = known->sizes.front();
+    const FakeSize& high = known->sizes.back();
+    chosen.width =
+        whole_steps(static_cast<int32_t>(pixels.width), low.width, high.width, known->step);
+    chosen.height =
+        whole_steps(static_cast<int32_t>(pixels.height), low.height, high.height, known->step);
+  }
+  const int32_t width = camera.forced_width > 0 ? camera.forced_width : chosen.width;
+  const int32_t height = camera.forced_height > 0 ? camera.forced_height : chosen.height;
   pixels.pixelformat = known->fourcc;
   pixels.width = static_cast<uint32_t>(width);
   pixels.height = static_cast<uint32_t>(height);

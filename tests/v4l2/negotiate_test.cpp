@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Which format, size and rate come of a wish, and what is told about it.
+#include <limits>
+
+#include "drivers/v4l2/list.hpp"
 #include "tests/v4l2/camera_run.hpp"
 
 namespace unisim::test {
@@ -98,6 +101,26 @@ TEST_CASE("a size that the driver changes on its own is read back and told") {
   CHECK(any_says(run.notes(), "gives 320x240"));
   REQUIRE(run.next() == UNISIM_FRAME_OK);
   CHECK(run.frame.image.width == 320);
+}
+
+TEST_CASE("of a range of sizes the one asked for is taken, or the nearest step") {
+  CameraRun run;
+  run.camera->formats = {{V4L2_PIX_FMT_YUYV, {{32, 32, {1.0, 30.0, 90.0}}, {2592, 1944, {}}}, 4}};
+  REQUIRE(run.open());
+  CHECK(run.mode().width == 640);
+  CHECK(run.mode().height == 480);
+  CHECK(run.notes().empty());
+  run.close();
+  run.config.width = 323;
+  run.config.height = 5000;
+  REQUIRE(run.open());
+  CHECK(run.mode().width == 324);
+  CHECK(run.mode().height == 1944);
+  CHECK(any_says(run.notes(), "gives 324x1944 instead of 323x5000"));
+  CHECK(run.next() == UNISIM_FRAME_OK);
+  int32_t cameras = 0;
+  CHECK(v4l2::camera_table(run.io, &cameras).find("YUYV  32x32 to 2592x1944 @ 90\n") !=
+        std::string::npos);
 }
 
 TEST_CASE("a camera that lists neither sizes nor rates is asked for the wish itself") {
