@@ -91,8 +91,8 @@ void FrontEnd::end_keyframe(Tracks* tracks) {
 
 int64_t FrontEnd::bytes() const {
   const auto pixels = static_cast<int64_t>(size_.area());
-  // Three prepared images, the mask, the gray image and its local mean.
-  return 3 * prepared_image_bytes(size_.width, size_.height) + 3 * pixels;
+  // Three prepared images, the mask, and seven bytes a pixel to prepare an image.
+  return 3 * prepared_image_bytes(size_.width, size_.height) + 8 * pixels;
 }
 
 }  // namespace unisim::geometric

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An image made ready for tracking: gray, free of exposure, as a pyramid with derivatives.
+// An image made ready for tracking: gray, free of exposure, faint parts raised, as a pyramid with
+// derivatives.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -16,16 +17,27 @@ inline constexpr double kReferenceDiagonal =
 
 /// Pyramid of one frame; buffers are reused from frame to frame.
 struct PreparedImage {
-  cv::Mat gray;                  ///< local mean removed
+  cv::Mat gray;                  ///< local mean removed, faint parts raised
   std::vector<cv::Mat> pyramid;  ///< alternating level, derivatives
 };
 
-/// Fills `out` from borrowed pixels. Subtracting the local mean takes out exposure jumps.
-/// `scratch` keeps the buffers in between.
+/// Fills `out` from borrowed pixels. Subtracting the local mean takes out exposure jumps. Where the
+/// contrast around a pixel is small it is raised: corners of bare walls and dim corners are found
+/// and followed too, and a frame of less contrast than the one before loses none.
+/// The members keep the buffers in between.
 struct ImagePreparation {
   cv::Mat gray;
   cv::Mat mean;
+  cv::Mat difference;  ///< gray from its local mean, without sign
+  cv::Mat square;
+  cv::Mat variance;   ///< of each cell of some pixels
+  cv::Mat gain;       ///< of each cell
+  cv::Mat wide_gain;  ///< of each column, for each row of cells
   void run(const unisim_image& image, PreparedImage* out);
+
+ private:
+  void measure_gain(int window);
+  void apply_gain(cv::Mat* out) const;
 };
 
 /// Bytes of one PreparedImage of this size, derivatives included.

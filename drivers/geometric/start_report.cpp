@@ -13,7 +13,7 @@ namespace {
 // What counts as the image's darkest and brightest: a few hot pixels or a lamp do not.
 constexpr double kDarkest = 0.01;
 constexpr double kBrightest = 0.99;
-// Corners are found from 12 grey levels of contrast on; this leaves hardly any.
+// Noise and rounding take much of what such images show.
 constexpr int kTooDark = 32;
 constexpr int kTooBright = 224;
 constexpr int kTooFlat = 32;

@@ -65,6 +65,38 @@ TEST_CASE("exposure jumps do not disturb tracking") {
   CHECK(relative_error(run.window(0, run.keyframes()), places) < 0.02);
 }
 
+TEST_CASE("images of few grey levels are posed") {
+  PredictorRun run(default_config());
+  std::vector<CameraPlace> places;
+  for (int step = 0; step < 60; ++step) {
+    GrayImage image = render_room(walk(step));
+    for (std::uint8_t& gray : image) gray = static_cast<std::uint8_t>(100 + gray / 20);
+    REQUIRE(run.show(image, step % 3 == 0) == UNISIM_PREDICTION_OK);
+    if (step % 3 == 0) places.push_back(walk(step));
+  }
+  REQUIRE(run.info().initialised == 1);
+  CHECK(run.info().restarts == 0);
+  CHECK(relative_error(run.window(0, run.keyframes()), places) < 0.1);
+}
+
+TEST_CASE("contrast that changes from frame to frame does not disturb tracking") {
+  unisim_geometric_config config = default_config();
+  config.focal_px = kFocal;
+  PredictorRun run(config);
+  std::vector<CameraPlace> places;
+  for (int step = 0; step < 60; ++step) {
+    GrayImage image = render_room(walk(step));
+    for (std::uint8_t& gray : image) {
+      gray = static_cast<std::uint8_t>(step % 2 == 0 ? gray / 2 : gray / 4);
+    }
+    REQUIRE(run.show(image, step % 3 == 0) == UNISIM_PREDICTION_OK);
+    if (step % 3 == 0) places.push_back(walk(step));
+  }
+  REQUIRE(run.info().initialised == 1);
+  CHECK(run.info().restarts == 0);
+  CHECK(relative_error(run.window(0, run.keyframes()), places) < 0.05);
+}
+
 TEST_CASE("the same images give the same bytes, with and without the background thread") {
   std::vector<unisim_sim3> first;
   for (const int background : {1, 0, 1}) {
