@@ -126,8 +126,8 @@ unisim_status unisim_get_submap(const unisim_session* session, int32_t submap_id
     s.keyframe_ids[k] = source.submaps().keyframe(submap, k);
   }
   s.T_world_submap = unisim::write_pose(source.submap_pose(submap));
-  s.center_sigma = submap.center_sigma;
-  s.scatter = submap.scatter;
+  s.center_sigma = submap.quality.center_sigma;
+  s.scatter = submap.quality.scatter;
   unisim::write_struct(s, unisim::struct_size_of(info), info);
   return UNISIM_OK;
 }
@@ -137,7 +137,9 @@ unisim_status unisim_get_info(const unisim_session* session, unisim_session_info
   if (status == UNISIM_OK) status = unisim::check_output(info);
   if (status != UNISIM_OK) return status;
   const Session& source = *core(session);
-  const unisim::SessionCounts counts = source.counts();
+  const unisim::SessionCounts& counts = source.counts();
+  const unisim::Skeleton& skeleton = source.skeleton();
+  const unisim::LoopWatch& watch = source.loop_watch();
   unisim_session_info i = {};
   i.state = static_cast<int32_t>(source.tracking().state());
   i.keyframes = source.keyframes().size();
@@ -154,14 +156,14 @@ unisim_status unisim_get_info(const unisim_session* session, unisim_session_info
   i.arena_bytes = source.arena_bytes();
   i.arena_peak_bytes = source.arena_used_bytes();
   i.first_keyframe = source.keyframes().first();
-  i.retired_keyframes = counts.retired_keyframes;
-  i.retired_unread = counts.retired_unread;
-  i.stretches = counts.stretches;
-  i.suspended_loops = counts.suspended_loops;
-  i.loop_suspensions = counts.loop_suspensions;
-  i.loop_returns = counts.loop_returns;
-  i.loops_removed = counts.loops_removed;
-  i.loops_dropped = counts.loops_dropped;
+  i.retired_keyframes = skeleton.counts().keyframes;
+  i.retired_unread = skeleton.unread();
+  i.stretches = skeleton.counts().stretches;
+  i.suspended_loops = watch.suspended();
+  i.loop_suspensions = watch.suspensions();
+  i.loop_returns = watch.returns();
+  i.loops_removed = skeleton.counts().loops_removed;
+  i.loops_dropped = skeleton.loop_edges().dropped_loops();
   i.refused_pair = newest_refusal(source, PredictionKind::kPair);
   i.refused_window = newest_refusal(source, PredictionKind::kWindow);
   i.refused_loop = newest_refusal(source, PredictionKind::kLoop);

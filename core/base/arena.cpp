@@ -17,17 +17,18 @@ Arena::Arena(void* memory, size_t bytes) : memory_(static_cast<unsigned char*>(m
   capacity_ = skip < bytes ? bytes - skip : 0;
 }
 
-void Arena::begin_part(const char* name) {
+Arena& Arena::begin_part(const char* name) {
   for (int32_t i = 0; i < part_count_; ++i) {
     if (std::strcmp(parts_[i].name, name) == 0) {
       part_ = i;
-      return;
+      return *this;
     }
   }
   UNISIM_CHECK(part_count_ < kMaxParts);
-  if (part_count_ == kMaxParts) return;
+  if (part_count_ == kMaxParts) return *this;
   parts_[part_count_] = {name, 0};
   part_ = part_count_++;
+  return *this;
 }
 
 void* Arena::take_bytes(size_t count, size_t size) {

@@ -35,8 +35,8 @@ class Arena {
   /// @param bytes  its size; required_bytes() of the dry run suffices
   Arena(void* memory, size_t bytes);
 
-  /// Following takes count under this name; a name used before goes on counting.
-  void begin_part(const char* name);
+  /// Following takes count under this name; a name used before goes on counting. @return *this
+  Arena& begin_part(const char* name);
 
   /// Array of `count` value-initialised elements.
   template <class T>

@@ -42,7 +42,10 @@ class KeyframeRing {
  public:
   KeyframeRing() = default;
   KeyframeRing(Arena& arena, int32_t capacity, int32_t first_id = 0)
-      : keyframes_(arena.take<Keyframe>(capacity)), size_(first_id), first_(first_id) {}
+      : keyframes_(arena.take<Keyframe>(capacity)),
+        size_(first_id),
+        first_(first_id),
+        settled_(first_id) {}
 
   /// Would one more take the place of the oldest?
   bool full() const { return size_ - first_ == keyframes_.size(); }
@@ -67,6 +70,10 @@ class KeyframeRing {
   /// Let go of all keyframes before `id`.
   void forget_before(int32_t id) { first_ = std::max(first_, std::min(id, size_)); }
 
+  /// Last keyframe whose pair with the one before is settled: taken or refused.
+  int32_t settled() const { return settled_; }
+  void settle(int32_t id) { settled_ = id; }
+
   /// Keyframe that has the pose of `id`: itself, the one it is held from, or -1.
   int32_t pose_source(int32_t id) const {
     const Keyframe& keyframe = (*this)[id];
@@ -83,6 +90,7 @@ class KeyframeRing {
   Span<Keyframe> keyframes_;
   int32_t size_ = 0;
   int32_t first_ = 0;
+  int32_t settled_ = 0;
 };
 
 }  // namespace unisim

@@ -7,7 +7,9 @@
 namespace unisim {
 
 SubmapTable::SubmapTable(Arena& arena, const SubmapTableSize& size, int32_t first_id)
-    : size_(size),
+    : views_each_(size.views),
+      most_windows_(size.windows),
+      most_loops_(size.loops),
       slots_(arena.take<Submap>(size.windows + size.loops)),
       order_(arena, slots_.size()),
       free_slots_(arena, slots_.size()),
@@ -43,7 +45,7 @@ int32_t SubmapTable::append(bool is_loop, int32_t views) {
   submap.id = next_id_++;
   submap.is_loop = is_loop;
   submap.count = views;
-  submap.first_id = slot * size_.views;
+  submap.first_id = slot * views_each_;
   submap.first_view = free_views_.back();
   free_views_.pop_back();
   for (int32_t k = 0; k < views; ++k) view(submap, k) = SubmapView();

@@ -2,6 +2,7 @@
 // The submaps of a session, with their views and the keyframes they share.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/base/fixed_vector.hpp"
@@ -34,30 +35,54 @@ struct LoopHealth {
   bool suspended = false;  ///< its edges contribute nothing
 };
 
+/// Keyframes first .. last.
+struct KeyframeRange {
+  int32_t first = 0;
+  int32_t last = -1;
+
+  bool empty() const { return last < first; }
+  /// Grow, if need be, so that it holds these too.
+  void include(const KeyframeRange& other) {
+    if (other.empty()) return;
+    first = empty() ? other.first : std::min(first, other.first);
+    last = std::max(last, other.last);
+  }
+  void include(int32_t keyframe) { include(KeyframeRange{keyframe, keyframe}); }
+};
+
+/// Where a submap is: at a node of the graph or rigidly under it.
+struct SubmapPlace {
+  Sim3 T_node_submap;    ///< pose under the node; identity where the node is the submap's own
+  int32_t node = -1;     ///< of the graph
+  bool own_node = true;  ///< false: the node is another submap's, this one hangs on it
+  bool retired = false;  ///< part of the skeleton: no edges of its own
+};
+
+/// How far a prediction can be trusted.
+struct SubmapQuality {
+  double center_sigma = 0.0;  ///< as handed in, 0: not known
+  double scatter = 0.0;       ///< of the depth ratios, median over measured views
+  double multiplier = 1.0;    ///< of its edges
+};
+
 /// A window's or a loop's prediction in the graph.
 struct Submap {
-  int32_t id = -1;         ///< -1: free slot
-  int32_t node = -1;       ///< graph node; or that of the submap it hangs on
-  Sim3 T_node_submap;      ///< pose under that node; identity where the node is the submap's own
-  int32_t first_view = 0;  ///< in the table's view pool; -1: given back, its keyframe ids stay
-  int32_t first_id = 0;    ///< in the table's pool of keyframe ids
-  int32_t count = 0;       ///< views, the unused ones included
-  int32_t origin = 0;      ///< view at the submap's origin
-  int32_t origin_keyframe = -1;
+  int32_t id = -1;       ///< -1: free slot
   int32_t segment = -1;  ///< of its origin
   bool is_loop = false;
-  bool own_node = true;      ///< false: hangs on the node of another submap by T_node_submap
-  bool retired = false;      ///< part of the skeleton: no edges of its own
-  bool removed = false;      ///< a loop the host took back, or that gave way at capacity
-  int32_t window_first = 0;  ///< of a window: keyframes asked for
-  int32_t window_last = 0;
-  int32_t first_owned = -1;  ///< retired keyframes that hang on it lie in first..last, -1: none
-  int32_t last_owned = -1;
-  int32_t loop_edge = -1;     ///< of a retired loop: its place among the loop edges, -1: none
-  double center_sigma = 0.0;  ///< as handed in, 0: not known
-  double scatter = 0.0;       ///< median over measured views
-  double multiplier = 1.0;    ///< of its edges
-  LoopHealth health;          ///< of a live loop
+  bool removed = false;    ///< a loop the host took back, or that gave way at capacity
+  int32_t loop_edge = -1;  ///< of a retired loop: its place among the loop edges, -1: none
+
+  int32_t count = 0;       ///< views, the unused ones included
+  int32_t origin = 0;      ///< view at the submap's origin
+  int32_t first_view = 0;  ///< in the table's view pool; -1: given back, its keyframe ids stay
+  int32_t first_id = 0;    ///< in the table's pool of keyframe ids
+
+  KeyframeRange window;  ///< of a window: keyframes asked for
+  KeyframeRange owned;   ///< retired keyframes that hang on it lie in it
+  SubmapPlace place;
+  SubmapQuality quality;
+  LoopHealth health;  ///< of a live loop
 };
 
 /// A keyframe that submaps m and n both see: one tie edge, and one scale edge per pair (m, n).
@@ -105,6 +130,7 @@ class SubmapTable {
     return views_[submap.first_view + k];
   }
   int32_t keyframe(const Submap& submap, int32_t k) const { return ids_[submap.first_id + k]; }
+  int32_t origin_keyframe(const Submap& submap) const { return keyframe(submap, submap.origin); }
   void set_keyframe(const Submap& submap, int32_t k, int32_t id) {
     ids_[submap.first_id + k] = id;
     views_[submap.first_view + k].keyframe = id;
@@ -117,7 +143,7 @@ class SubmapTable {
   void drop_shared(int32_t id);
 
   bool has_room(bool is_loop) const {
-    return (is_loop ? loops_ < size_.loops : windows_ < size_.windows) && !free_views_.empty();
+    return (is_loop ? loops_ < most_loops_ : windows_ < most_windows_) && !free_views_.empty();
   }
   /// Append a submap with `views` fresh views; caller has checked has_room(). @return its id
   int32_t append(bool is_loop, int32_t views);
@@ -130,11 +156,13 @@ class SubmapTable {
  private:
   int32_t slot_of(int32_t id) const;
 
-  SubmapTableSize size_;
+  int32_t views_each_ = 0;
+  int32_t most_windows_ = 0;
+  int32_t most_loops_ = 0;
   Span<Submap> slots_;
   FixedVector<int32_t> order_;  // slots by id
   FixedVector<int32_t> free_slots_;
-  Span<int32_t> ids_;  // keyframes, size_.views for each slot
+  Span<int32_t> ids_;  // keyframes, views_each_ for each slot
   Span<SubmapView> views_;
   FixedVector<int32_t> free_views_;  // first views of what is free
   FixedVector<SharedKeyframe> shared_;

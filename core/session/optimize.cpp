@@ -43,56 +43,58 @@ int32_t degrees_of_freedom(const Graph& graph) {
 // next of those, or for a call without anything new.
 Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
   *report = OptimizeReport();
-  for (int32_t node = 0; node < graph_.node_end(); ++node) before_[node] = graph_.pose(node);
+  for (int32_t node = 0; node < map_.graph.node_end(); ++node)
+    before_[node] = map_.graph.pose(node);
   LmOptions options;
-  options.max_iterations = max_iterations > 0 ? max_iterations : config_.max_iterations;
+  options.max_iterations = max_iterations > 0 ? max_iterations : map_.config.max_iterations;
   options.least_move = kStillMove;
   options.relinearize = kRelinearize;
-  options.hold_skeleton = window_came_ && !skeleton_is_due_ && !skeleton_.empty();
+  options.hold_skeleton = window_came_ && !watch_.has_news() && !skeleton_.nodes().empty();
   Status status = Status::kOk;
   do {
-    if (!holds(gauge_.apply(&graph_))) return Status::kInternal;
-    status = solver_.optimize(&graph_, options, &report->lm);
-  } while (status == Status::kCapacity && untangle());
-  report->keyframes = counts_.live_nodes;
-  report->submaps = graph_.node_count() - counts_.live_nodes;
+    if (!holds(gauge_.apply(&map_.graph))) return Status::kInternal;
+    status = solver_.optimize(&map_.graph, options, &report->lm);
+  } while (status == Status::kCapacity && skeleton_.untangle());
+  refuse_late_windows();
+  report->keyframes = live_nodes();
+  report->submaps = map_.graph.node_count() - live_nodes();
   describe_bad_node(report);
   if (status == Status::kNotReady || status == Status::kCapacity) return status;
   ++counts_.optimizations;
   window_came_ = false;
-  skeleton_is_due_ = !is_ok(status);
+  if (is_ok(status)) {
+    watch_.news_solved();
+  } else {
+    watch_.note_news();
+  }
   describe_changes(report);
-  judge_loops();
-  if (!holds(gauge_.apply(&graph_))) return Status::kInternal;
-  const int32_t freedom = degrees_of_freedom(graph_);
+  skeleton_.watch_loops(counts_.optimizations);
+  if (!holds(gauge_.apply(&map_.graph))) return Status::kInternal;
+  const int32_t freedom = degrees_of_freedom(map_.graph);
   variance_factor_ = freedom > 0 ? 2.0 * report->lm.final_cost / freedom : 1.0;
-  solved_revision_ = graph_.revision();
+  solved_revision_ = map_.graph.revision();
   return status;
 }
 
 void Session::describe_changes(OptimizeReport* report) {
-  const auto describe = [&](int32_t submap, int32_t first_owned, int32_t last_owned) {
-    const int32_t node = submaps_[submap].node;
-    const int32_t first = std::max(first_owned, keyframes_.first());
-    if (last_owned < first || !moved(before_[node], graph_.pose(node))) return;
-    note_changed(first, last_owned, report);
+  const auto describe = [&](int32_t submap, const KeyframeRange& owned) {
+    const int32_t node = map_.submaps[submap].place.node;
+    const int32_t first = std::max(owned.first, map_.keyframes.first());
+    if (owned.last < first || !moved(before_[node], map_.graph.pose(node))) return;
+    note_changed(first, owned.last, report);
   };
-  for (const SkeletonNode& node : skeleton_) {
-    describe(node.submap, node.first_owned, node.last_owned);
-  }
-  for (const int32_t id : live_windows_) {
-    describe(id, submaps_[id].first_owned, submaps_[id].last_owned);
-  }
+  for (const SkeletonNode& node : skeleton_.nodes()) describe(node.submap, node.owned);
+  for (const int32_t id : skeleton_.windows()) describe(id, map_.submaps[id].owned);
   int32_t newest = -1;
-  for (int32_t id = live_from_; id < keyframes_.size(); ++id) {
-    const int32_t node = keyframes_[id].node;
+  for (int32_t id = skeleton_.live_from(); id < map_.keyframes.size(); ++id) {
+    const int32_t node = map_.keyframes[id].node;
     if (node < 0) continue;
     newest = id;
-    if (moved(before_[node], graph_.pose(node))) note_changed(id, id, report);
+    if (moved(before_[node], map_.graph.pose(node))) note_changed(id, id, report);
   }
   if (newest < 0) return;
-  const Sim3& before = before_[keyframes_[newest].node];
-  const Sim3& after = graph_.pose(keyframes_[newest].node);
+  const Sim3& before = before_[map_.keyframes[newest].node];
+  const Sim3& after = map_.graph.pose(map_.keyframes[newest].node);
   const Vec7 jump = sim3_log(between(before, after));
   report->jump_translation = (after.t - before.t).norm();
   report->jump_rotation = jump.segment<3>(3).norm();
@@ -103,31 +105,32 @@ void Session::describe_changes(OptimizeReport* report) {
 
 void Session::describe_bad_node(OptimizeReport* report) const {
   if (report->lm.bad_node < 0) return;
-  for (int32_t id = live_from_; id < keyframes_.size(); ++id) {
-    if (keyframes_[id].node == report->lm.bad_node) report->bad_keyframe = id;
+  for (int32_t id = skeleton_.live_from(); id < map_.keyframes.size(); ++id) {
+    if (map_.keyframes[id].node == report->lm.bad_node) report->bad_keyframe = id;
   }
-  for (int32_t k = 0; k < submaps_.size(); ++k) {
-    const Submap& submap = submaps_.at(k);
-    if (submap.own_node && submap.node == report->lm.bad_node) report->bad_submap = submap.id;
+  for (int32_t k = 0; k < map_.submaps.size(); ++k) {
+    const Submap& submap = map_.submaps.at(k);
+    if (submap.place.own_node && submap.place.node == report->lm.bad_node)
+      report->bad_submap = submap.id;
   }
 }
 
 Status Session::covariance(int32_t keyframe, Mat7* covariance) {
-  if (keyframes_.gone(keyframe)) return Status::kRetired;
-  if (!keyframes_.has(keyframe)) return Status::kInvalidArgument;
-  const Keyframe& asked = keyframes_[keyframe];
-  const int32_t node = asked.retired() ? submaps_[asked.owner].node : asked.node;
-  if (node < 0 || graph_.revision() != solved_revision_) return Status::kNotReady;
-  if (graph_.node(node).fixed) {
+  if (map_.keyframes.gone(keyframe)) return Status::kRetired;
+  if (!map_.keyframes.has(keyframe)) return Status::kInvalidArgument;
+  const Keyframe& asked = map_.keyframes[keyframe];
+  const int32_t node = asked.retired() ? map_.submaps[asked.owner].place.node : asked.node;
+  if (node < 0 || map_.graph.revision() != solved_revision_) return Status::kNotReady;
+  if (map_.graph.node(node).fixed) {
     covariance->setZero();
     return Status::kOk;
   }
-  const Status status = solver_.marginal_covariance(graph_, node, covariance);
+  const Status status = solver_.marginal_covariance(map_.graph, node, covariance);
   if (!is_ok(status)) return status;
   if (asked.retired()) {
     // T = S X and S exp(d) X = S X exp(Ad(X^-1) d).
     const Mat7 Ad =
-        sim3_adjoint((submaps_[asked.owner].T_node_submap * asked.T_owner_kf).inverse());
+        sim3_adjoint((map_.submaps[asked.owner].place.T_node_submap * asked.T_owner_kf).inverse());
     *covariance = (Ad * *covariance * Ad.transpose()).eval();
   }
   *covariance *= variance_factor_;

@@ -18,54 +18,44 @@ constexpr double kLeastMultiplier = 1e-4;
 }  // namespace
 
 double Session::quality_multiplier(double center_sigma) const {
-  if (center_sigma <= config_.sigma_reference) return 1.0;
-  const double ratio = config_.sigma_reference / center_sigma;
+  if (center_sigma <= map_.config.sigma_reference) return 1.0;
+  const double ratio = map_.config.sigma_reference / center_sigma;
   return std::max(ratio * ratio, kLeastMultiplier);
 }
 
-EdgeWeight Session::edge_weight(FactorKind kind, double multiplier, EdgeOrigin origin) const {
-  const RobustKernel kernel =
-      origin == EdgeOrigin::kLoop
-          ? RobustKernel{RobustKernelKind::kGemanMcClure, config_.loop_delta}
-          : RobustKernel{RobustKernelKind::kHuber, config_.huber_delta};
-  return {config_.factor(kind).information, multiplier, kernel, origin};
-}
-
 Status Session::add_keyframe(int64_t timestamp_ns, int32_t* id) {
-  const int32_t newest = keyframes_.size() - 1;
-  if (newest >= config_.first_keyframe_id && timestamp_ns <= keyframes_[newest].timestamp_ns) {
+  const int32_t newest = map_.keyframes.size() - 1;
+  if (newest >= map_.config.first_keyframe_id &&
+      timestamp_ns <= map_.keyframes[newest].timestamp_ns) {
     return Status::kInvalidArgument;
   }
-  if ((keyframes_.full() && !slides()) || !has_ids()) return Status::kCapacity;
-  if (slides()) make_keyframe_room();
-  *id = keyframes_.append(timestamp_ns);
+  if ((map_.keyframes.full() && !map_.config.slides()) || !has_ids()) return Status::kCapacity;
+  if (map_.config.slides()) make_keyframe_room();
+  *id = map_.keyframes.append(timestamp_ns);
   depth_.begin_keyframe(*id);
-  if (slides() && keyframes_.first() > live_from_) {
-    live_from_ = keyframes_.first();
-    drop_windows_before(live_from_);
-  }
+  refuse_late_windows();
   Window skipped;
-  if (!windows_.keyframe_added(keyframes_.size(), &skipped)) {
+  if (!requests_.keyframe_added(&skipped)) {
     refuse_window(skipped, RefusalReason::kRoom);
   }
-  return broken_ ? Status::kInternal : Status::kOk;
+  return broken() ? Status::kInternal : Status::kOk;
 }
 
 Status Session::add_two_view(const TwoViewInput& input) {
   if (input.i < 0 || input.j != input.i + 1) return Status::kInvalidArgument;
-  if (input.j >= keyframes_.size()) return Status::kNotReady;
-  if (input.j <= settled_) return Status::kInvalidArgument;
-  if (input.j != settled_ + 1) return Status::kNotReady;
+  if (input.j >= map_.keyframes.size()) return Status::kNotReady;
+  if (input.j <= map_.keyframes.settled()) return Status::kInvalidArgument;
+  if (input.j != map_.keyframes.settled() + 1) return Status::kNotReady;
 
   depth_.sample(input.depth_i, &sampled_);
   double log_ratio = 0.0;
   double multiplier = quality_multiplier(input.center_sigma);
-  if (keyframes_[input.i].node >= 0) {
+  if (map_.keyframes[input.i].node >= 0) {
     LogMedianRatio ratio = {};
     if (depth_.over_two_view(sampled_, input.i, &ratio)) {
       log_ratio = -ratio.log_ratio;
-      if (input.center_sigma == 0.0 && ratio.scatter > config_.scatter_gate) {
-        refuse_pair(input.j, RefusalReason::kScatter, ratio.scatter, config_.scatter_gate);
+      if (input.center_sigma == 0.0 && ratio.scatter > map_.config.scatter_gate) {
+        refuse_pair(input.j, RefusalReason::kScatter, ratio.scatter, map_.config.scatter_gate);
         return Status::kOk;
       }
     } else {
@@ -73,12 +63,12 @@ Status Session::add_two_view(const TwoViewInput& input) {
       LogLine line;
       line << "pair " << input.i << "," << input.j
            << ": no depth in common with the pair before, its length is a guess";
-      line.send(config_.log, LogLevel::kWarning);
+      line.send(map_.config.log, LogLevel::kWarning);
     }
   }
   // Depth that leaps by many orders of magnitude, again and again, leaves the range of numbers.
-  const int32_t source = keyframes_.pose_source(input.i);
-  const Sim3 T_world_i = source >= 0 ? keyframe_pose(source) : Sim3();
+  const int32_t source = map_.keyframes.pose_source(input.i);
+  const Sim3 T_world_i = source >= 0 ? map_.keyframe_pose(source) : Sim3();
   const Sim3 Z_i_j = two_view_measurement(input.T_i_j, math::exp(log_ratio));
   const bool in_range =
       Z_i_j.in_range() && (T_world_i * Z_i_j).in_range() && (T_world_i * input.T_i_j).in_range();
@@ -88,37 +78,37 @@ Status Session::add_two_view(const TwoViewInput& input) {
   }
   accept_pair(input, log_ratio, multiplier);
   make_node_room();
-  return broken_ ? Status::kInternal : Status::kOk;
+  return broken() ? Status::kInternal : Status::kOk;
 }
 
 void Session::accept_pair(const TwoViewInput& input, double log_ratio, double multiplier) {
-  const bool paper = config_.preset == Preset::kPaper;
-  const bool starts = keyframes_[input.i].node < 0;
+  const bool paper = map_.config.preset == Preset::kPaper;
+  const bool starts = map_.keyframes[input.i].node < 0;
   if (starts) {
-    const int32_t source = keyframes_.pose_source(input.i);
-    start_segment(input.i, source >= 0 ? keyframe_pose(source) : Sim3());
+    const int32_t source = map_.keyframes.pose_source(input.i);
+    start_segment(input.i, source >= 0 ? map_.keyframe_pose(source) : Sim3());
   }
   if (starts || paper) depth_.keep_two_view(sampled_, input.i);
-  const Keyframe& i = keyframes_[input.i];
-  const Sim3& T_world_i = graph_.pose(i.node);
-  const double live_ratio = paper ? 1.0 : math::exp(config_.live_scale_exponent * log_ratio);
+  const Keyframe& i = map_.keyframes[input.i];
+  const Sim3& T_world_i = map_.graph.pose(i.node);
+  const double live_ratio = paper ? 1.0 : math::exp(map_.config.live_scale_exponent * log_ratio);
   give_node(input.j, T_world_i * Sim3::scaling(live_ratio) * input.T_i_j, i.segment);
   depth_.sample(input.depth_j, &sampled_);
   depth_.keep_two_view(sampled_, input.j);
-  if (broken_) return;
+  if (broken()) return;
 
-  if (config_.factor(FactorKind::kTwoView).enabled) {
+  if (map_.config.factor(FactorKind::kTwoView).enabled) {
     const Sim3 Z_i_j =
         paper ? input.T_i_j : two_view_measurement(input.T_i_j, math::exp(log_ratio));
     int32_t edge = -1;
-    holds(graph_.add_two_view(i.node, keyframes_[input.j].node, Z_i_j,
-                              edge_weight(FactorKind::kTwoView, multiplier, EdgeOrigin::kPair),
-                              &edge));
+    holds(map_.graph.add_two_view(
+        i.node, map_.keyframes[input.j].node, Z_i_j,
+        map_.config.edge_weight(FactorKind::kTwoView, multiplier, EdgeOrigin::kPair), &edge));
   }
   tracking_.pair_accepted();
-  if (i.state == Tracking::kInit) keyframes_[input.i].state = tracking_.state();
-  keyframes_[input.j].state = tracking_.state();
-  settled_ = input.j;
+  if (i.state == Tracking::kInit) map_.keyframes[input.i].state = tracking_.state();
+  map_.keyframes[input.j].state = tracking_.state();
+  map_.keyframes.settle(input.j);
 }
 
 void Session::start_segment(int32_t keyframe, const Sim3& T_world_kf) {
@@ -128,26 +118,50 @@ void Session::start_segment(int32_t keyframe, const Sim3& T_world_kf) {
 }
 
 void Session::give_node(int32_t keyframe, const Sim3& T_world_kf, int32_t segment) {
-  Keyframe& target = keyframes_[keyframe];
-  if (!holds(graph_.add_node(NodeKind::kKeyframe, T_world_kf, &target.node))) return;
+  Keyframe& target = map_.keyframes[keyframe];
+  if (!holds(map_.graph.add_node(NodeKind::kKeyframe, T_world_kf, &target.node))) return;
   target.held_from = -1;
   target.segment = segment;
   ++counts_.posed_keyframes;
-  ++counts_.live_nodes;
   counts_.last_posed = std::max(counts_.last_posed, keyframe);
 }
 
 void Session::refuse_pair(int32_t j, RefusalReason reason, double value, double limit) {
   refusals_.add(PredictionKind::kPair, {reason, j - 1, j, value, limit});
   tracking_.pair_refused();
-  Keyframe& keyframe = keyframes_[j];
-  keyframe.held_from = keyframes_.has(j - 1) ? keyframes_.pose_source(j - 1) : -1;
+  Keyframe& keyframe = map_.keyframes[j];
+  keyframe.held_from = map_.keyframes.has(j - 1) ? map_.keyframes.pose_source(j - 1) : -1;
   keyframe.state = tracking_.state();
   if (keyframe.held_from >= 0) {
-    keyframe.segment = keyframes_[keyframe.held_from].segment;
+    keyframe.segment = map_.keyframes[keyframe.held_from].segment;
     counts_.last_posed = j;
   }
-  settled_ = j;
+  map_.keyframes.settle(j);
+}
+
+/// The ring is about to let go of its oldest keyframe: nothing may depend on it any more.
+void Session::make_keyframe_room() {
+  if (!map_.keyframes.full()) return;
+  const int32_t oldest = map_.keyframes.first();
+  while (map_.keyframes.settled() <= oldest) {
+    refuse_pair(map_.keyframes.settled() + 1, RefusalReason::kLate);
+  }
+  skeleton_.let_go_through(oldest);
+}
+
+void Session::make_node_room() {
+  if (!map_.config.slides()) return;
+  while (!broken() && live_nodes() > live_nodes_capacity_ && skeleton_.close_stretch()) {
+  }
+  refuse_late_windows();
+}
+
+/// Predictions that come in another order: windows over retired keyframes are asked for no more.
+void Session::refuse_late_windows() {
+  Window dropped;
+  while (requests_.drop_before(skeleton_.live_from(), &dropped)) {
+    refuse_window(dropped, RefusalReason::kLate);
+  }
 }
 
 }  // namespace unisim

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/base/counter.hpp"
-#include "core/session/event_log.hpp"
+#include "core/base/event_log.hpp"
 
 namespace unisim {
 
@@ -35,6 +35,7 @@ struct Refusal {
 /// Keeps the newest refusal of each kind and how many there were.
 class Refusals {
  public:
+  /// @param log outlives it
   explicit Refusals(const LogSink& log) : log_(log) {}
 
   /// Count it, remember it, and tell the log unless the host itself refused it.
@@ -46,7 +47,7 @@ class Refusals {
  private:
   static int index(PredictionKind kind) { return static_cast<int>(kind); }
 
-  LogSink log_;
+  const LogSink& log_;
   Refusal newest_[3];
   Counter counts_[3];
 };

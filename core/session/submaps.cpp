@@ -6,6 +6,7 @@
 #include "core/base/math.hpp"
 #include "core/depth/nth_element.hpp"
 #include "core/graph/bridge.hpp"
+#include "core/map/view_edges.hpp"
 #include "core/session.hpp"
 
 namespace unisim {
@@ -13,91 +14,108 @@ namespace unisim {
 Status Session::check_views(const SubmapInput& input, bool is_loop, int32_t* window) const {
   const int32_t count = input.keyframes.size();
   for (int32_t k = 0; k < count; ++k) {
-    if (is_loop && keyframes_.gone(input.keyframes[k])) return Status::kRetired;
-    if (!keyframes_.has(input.keyframes[k])) return Status::kInvalidArgument;
+    if (is_loop && map_.keyframes.gone(input.keyframes[k])) return Status::kRetired;
+    if (!map_.keyframes.has(input.keyframes[k])) return Status::kInvalidArgument;
     if (k > 0 && input.keyframes[k] <= input.keyframes[k - 1]) return Status::kInvalidArgument;
   }
   const int32_t first = input.keyframes[0];
   const int32_t last = input.keyframes[count - 1];
   if (is_loop) {
-    if (last > settled_) return Status::kNotReady;
+    if (last > map_.keyframes.settled()) return Status::kNotReady;
   } else {
-    *window = windows_.find(first, last);
-    if (*window < 0) return Status::kInvalidArgument;
-    if (windows_.at(*window).last() > settled_for_windows()) return Status::kNotReady;
+    const Status status = requests_.find_window(first, last, window);
+    if (!is_ok(status)) return status;
   }
-  const bool room = count <= config_.window_size && has_ids() &&
-                    (slides() || submaps_.has_room(is_loop)) && (!is_loop || config_.max_loops > 0);
+  const bool room = count <= map_.config.window_size && has_ids() &&
+                    (map_.config.slides() || map_.submaps.has_room(is_loop)) &&
+                    (!is_loop || map_.config.max_loops > 0);
   return room ? Status::kOk : Status::kCapacity;
 }
 
 Status Session::add_submap(const SubmapInput& input, bool is_loop, int32_t* id) {
-  int32_t window = -1;
-  const Status status = check_views(input, is_loop, &window);
+  int32_t open = -1;
+  const Status status = check_views(input, is_loop, &open);
   if (!is_ok(status)) return status;
-  const Window answered = is_loop ? Window{} : windows_.at(window);
-  if (!is_loop) windows_.remove(window);
+  const Window window = is_loop ? Window{} : requests_.take_window(open);
 
-  if (slides()) make_submap_room(is_loop);
-  const int32_t made = submaps_.append(is_loop, input.keyframes.size());
-  Submap& submap = submaps_[made];
-  submap.window_first = answered.first;
-  submap.window_last = answered.last();
-  submap.center_sigma = input.center_sigma;
+  if (map_.config.slides()) skeleton_.make_room(is_loop);
+  const int32_t made = map_.submaps.append(is_loop, input.keyframes.size());
+  Submap& submap = map_.submaps[made];
+  submap.window = {window.first, window.last()};
+  submap.quality.center_sigma = input.center_sigma;
   measure_views(input, is_loop, &submap);
   if (!choose_origin(&submap) || !judge_submap(&submap)) {
-    submaps_.remove_last();
+    map_.submaps.remove_last();
+    refuse_late_windows();
     *id = -1;
     return Status::kOk;
   }
   place_submap(&submap);
-  adopt_views(input, submap);
-  add_view_edges(made);
-  add_shared_edges(made);
-  if (!is_loop) keep_shared_depth(input, made, answered);
-  count_cover(made);
-  if (is_loop && !live_loops_.push_back(made)) holds(Status::kInternal);
-  (is_loop ? skeleton_is_due_ : window_came_) = true;
-  if (!is_loop && slides()) retire_surplus(made);
+  connect(input, made, window);
+  if (is_loop) {
+    skeleton_.add_loop(made);
+    watch_.note_news();
+  } else {
+    window_came_ = true;
+    if (map_.config.slides()) skeleton_.add_window(made);
+  }
   make_node_room();
   ++(is_loop ? counts_.loops : counts_.windows);
-  if (broken_) return Status::kInternal;
+  if (broken()) return Status::kInternal;
   *id = made;
   return Status::kOk;
+}
+
+/// Edges to what the submap sees, and what later submaps need of it.
+void Session::connect(const SubmapInput& input, int32_t id, const Window& window) {
+  const Submap& submap = map_.submaps[id];
+  adopt_views(input, submap);
+  for (int32_t k = 0; k < submap.count && !broken(); ++k) {
+    SubmapView& view = map_.submaps.view(submap, k);
+    if (view.used) add_view_edges(map_, submap, &view);
+  }
+  ties_.add(id);
+  if (!submap.is_loop) keep_shared_depth(input, id, window);
+  count_cover(id);
 }
 
 void Session::measure_views(const SubmapInput& input, bool is_loop, Submap* submap) {
   double scatters[kMaxViews];
   int32_t measured = 0;
   for (int32_t k = 0; k < submap->count; ++k) {
-    SubmapView& view = submaps_.view(*submap, k);
-    submaps_.set_keyframe(*submap, k, input.keyframes[k]);
-    view.segment = keyframes_[view.keyframe].posed() ? keyframes_[view.keyframe].segment : -1;
+    SubmapView& view = map_.submaps.view(*submap, k);
+    map_.submaps.set_keyframe(*submap, k, input.keyframes[k]);
+    view.segment =
+        map_.keyframes[view.keyframe].posed() ? map_.keyframes[view.keyframe].segment : -1;
     view.T_submap_kf = input.T_submap_kf[k];
-    measure_view(input.depth[k], !is_loop, !is_loop, &view);
+    measure_view(input.depth[k], !is_loop, &view);
     if (view.measured) scatters[measured++] = view.scatter;
   }
-  submap->scatter = measured > 0 ? median({scatters, measured}) : 0.0;
+  submap->quality.scatter = measured > 0 ? median({scatters, measured}) : 0.0;
 }
 
-void Session::measure_view(const DepthMap& depth, bool may_adopt, bool may_share,
-                           SubmapView* view) {
+void Session::measure_view(const DepthMap& depth, bool is_window, SubmapView* view) {
   depth_.sample(depth, &sampled_);
   if (!sampled_.usable()) return;
   LogMedianRatio ratio = {};
   if (view->segment < 0) {
-    // No pair stands behind this keyframe: the submap itself gives it its pose and unit.
-    view->used = may_adopt;
+    // No pair stands behind this keyframe: a window gives it its pose and unit itself.
+    view->used = is_window;
   } else if (depth_.over_two_view(sampled_, view->keyframe, &ratio)) {
     view->log_rho = ratio.log_ratio;
     view->scatter = ratio.scatter;
     view->measured = true;
     view->used = true;
   }
-  if (!may_share || !view->used) return;
+  if (is_window && view->used) find_shared(view);
+}
+
+/// The newest submap that saw the keyframe too, if it still has its views.
+void Session::find_shared(SubmapView* view) {
   const DepthStore::Source source = depth_.submap_source(view->keyframe);
-  const bool kept =
-      source.keyframe >= 0 && submaps_.has(source.submap) && !submaps_[source.submap].retired;
+  const bool kept = source.keyframe >= 0 && map_.submaps.has(source.submap) &&
+                    !map_.submaps[source.submap].place.retired;
+  LogMedianRatio ratio = {};
   if (!kept || !depth_.over_submap(sampled_, view->keyframe, &ratio)) return;
   view->log_c = -ratio.log_ratio;
   view->shared_submap = source.submap;
@@ -110,10 +128,10 @@ bool Session::choose_origin(Submap* submap) {
   int32_t best = -1;
   int32_t used = 0;
   for (int32_t k = 0; k < submap->count; ++k) {
-    const SubmapView& view = submaps_.view(*submap, k);
+    const SubmapView& view = map_.submaps.view(*submap, k);
     used += view.used ? 1 : 0;
     if (!view.measured) continue;
-    const int32_t oldest = best < 0 ? view.segment : submaps_.view(*submap, best).segment;
+    const int32_t oldest = best < 0 ? view.segment : map_.submaps.view(*submap, best).segment;
     const bool nearer = best < 0 || std::abs(k - centre) < std::abs(best - centre);
     if (view.segment < oldest || (view.segment == oldest && nearer)) best = k;
   }
@@ -123,22 +141,21 @@ bool Session::choose_origin(Submap* submap) {
     return false;
   }
   submap->origin = best;
-  submap->origin_keyframe = submaps_.view(*submap, best).keyframe;
-  submap->segment = submaps_.view(*submap, best).segment;
-  const Sim3 T_origin = submaps_.view(*submap, best).T_submap_kf;
+  submap->segment = map_.submaps.view(*submap, best).segment;
+  const Sim3 T_origin = map_.submaps.view(*submap, best).T_submap_kf;
   for (int32_t k = 0; k < submap->count; ++k) {
-    Sim3& T_submap_kf = submaps_.view(*submap, k).T_submap_kf;
+    Sim3& T_submap_kf = map_.submaps.view(*submap, k).T_submap_kf;
     T_submap_kf = between(T_origin, T_submap_kf);
   }
   return true;
 }
 
 bool Session::judge_submap(Submap* submap) {
-  const bool known = submap->center_sigma > 0.0;
-  const double sigma_gate = submap->is_loop ? config_.sigma_gate_loop : config_.sigma_gate;
-  const double value = known ? submap->center_sigma : submap->scatter;
-  const double gate = known ? sigma_gate : config_.scatter_gate;
-  submap->multiplier = quality_multiplier(submap->center_sigma);
+  const bool known = submap->quality.center_sigma > 0.0;
+  const double sigma_gate = submap->is_loop ? map_.config.sigma_gate_loop : map_.config.sigma_gate;
+  const double value = known ? submap->quality.center_sigma : submap->quality.scatter;
+  const double gate = known ? sigma_gate : map_.config.scatter_gate;
+  submap->quality.multiplier = quality_multiplier(submap->quality.center_sigma);
   if (value > gate) {
     refuse_submap(*submap, known ? RefusalReason::kSigma : RefusalReason::kScatter, value, gate);
     return false;
@@ -153,7 +170,7 @@ bool Session::is_in_range(const Submap& submap) const {
   const Sim3 T_world_submap = first_pose(submap);
   bool in_range = T_world_submap.in_range();
   for (int32_t k = 0; in_range && k < submap.count; ++k) {
-    const SubmapView& view = submaps_.view(submap, k);
+    const SubmapView& view = map_.submaps.view(submap, k);
     if (!view.used) continue;
     const Sim3 Z_m_i = bridge_measurement(view.T_submap_kf, math::exp(view.log_rho));
     in_range = Z_m_i.in_range() && (T_world_submap * Z_m_i).in_range() &&
@@ -166,125 +183,53 @@ bool Session::is_in_range(const Submap& submap) const {
 void Session::refuse_submap(const Submap& submap, RefusalReason reason, double value,
                             double limit) {
   const PredictionKind kind = submap.is_loop ? PredictionKind::kLoop : PredictionKind::kWindow;
-  refusals_.add(kind, {reason, submaps_.keyframe(submap, 0),
-                       submaps_.keyframe(submap, submap.count - 1), value, limit});
+  refusals_.add(kind, {reason, map_.submaps.keyframe(submap, 0),
+                       map_.submaps.keyframe(submap, submap.count - 1), value, limit});
 }
 
 void Session::refuse_window(const Window& window, RefusalReason reason) {
   refusals_.add(PredictionKind::kWindow, {reason, window.first, window.last(), 0.0, 0.0});
 }
 
-/// S_m = [(s_o / rho_mo) R_o, t_o] of its origin.
-Sim3 Session::first_pose(const Submap& submap) const {
-  const SubmapView& origin = submaps_.view(submap, submap.origin);
-  return keyframe_pose(origin.keyframe) * Sim3::scaling(math::exp(-origin.log_rho));
-}
-
-/// Segments that its other views belong to follow.
-void Session::place_submap(Submap* submap) {
-  const SubmapView& origin = submaps_.view(*submap, submap->origin);
-  if (!holds(graph_.add_node(NodeKind::kSubmap, first_pose(*submap), &submap->node))) return;
-  for (int32_t k = 0; k < submap->count; ++k) {
-    const SubmapView& view = submaps_.view(*submap, k);
-    if (view.measured && keyframes_[view.keyframe].segment != origin.segment) {
-      skeleton_is_due_ = true;
-      join_segment(*submap, keyframes_[view.keyframe].segment, origin.segment);
-      if (submap->is_loop) tracking_.segments_joined_by_loop();
-    }
-  }
-}
-
-/// View by which a submap joins a segment to its own: the one nearest to its centre.
-const SubmapView& Session::joining_view(const Submap& submap, int32_t segment) const {
-  const int32_t centre = submap.count / 2;
-  int32_t best = -1;
-  for (int32_t k = 0; k < submap.count; ++k) {
-    const SubmapView& view = submaps_.view(submap, k);
-    if (!view.measured || keyframes_[view.keyframe].segment != segment) continue;
-    if (best < 0 || std::abs(k - centre) < std::abs(best - centre)) best = k;
-  }
-  return submaps_.view(submap, best);
-}
-
-/// How the view's segment has to move for the view to lie where the submap sees it.
-Sim3 Session::join_correction(const SubmapView& view, const Sim3& T_world_submap) const {
-  const Sim3 T_world_kf =
-      T_world_submap * bridge_measurement(view.T_submap_kf, math::exp(view.log_rho));
-  return T_world_kf * keyframe_pose(view.keyframe).inverse();
-}
-
-/// Would all that follows a submap into its segment stay within the range of numbers?
-bool Session::joins_in_range(const Submap& submap, const Sim3& T_world_submap,
-                             int32_t segment) const {
-  if (segment == submap.segment) return true;
-  const Sim3 correction = join_correction(joining_view(submap, segment), T_world_submap);
-  bool in_range = correction.in_range();
-  for (int32_t k = 0; in_range && k < submaps_.size(); ++k) {
-    const Submap& other = submaps_.at(k);
-    if (other.segment != segment || other.node < 0) continue;
-    in_range = (correction * submap_pose(other)).in_range();
-  }
-  for (int32_t id = keyframes_.first(); in_range && id < keyframes_.size(); ++id) {
-    const Keyframe& keyframe = keyframes_[id];
-    if (keyframe.segment != segment || !keyframe.posed()) continue;
-    in_range = (correction * keyframe_pose(id)).in_range();
-  }
-  return in_range;
-}
-
-/// Move a segment as a whole so that the view that joins it lies where the submap sees it.
-void Session::join_segment(const Submap& submap, int32_t segment, int32_t into) {
-  const SubmapView& view = joining_view(submap, segment);
-  const Sim3 correction = join_correction(view, graph_.pose(submap.node));
-  move_retired(segment, correction);
-  for (int32_t k = 0; k < submaps_.size(); ++k) {
-    Submap& other = submaps_.at(k);
-    if (other.segment != segment) continue;
-    other.segment = into;
-    if (!other.own_node) continue;
-    holds(graph_.set_pose(other.node, correction * graph_.pose(other.node)));
-  }
-  for (int32_t id = keyframes_.first(); id < keyframes_.size(); ++id) {
-    Keyframe& keyframe = keyframes_[id];
-    if (keyframe.segment != segment) continue;
-    keyframe.segment = into;
-    if (keyframe.node < 0) continue;
-    holds(graph_.set_pose(keyframe.node, correction * graph_.pose(keyframe.node)));
-  }
-  --counts_.segments;
-  LogLine line;
-  line << "segment " << segment << " joined to segment " << into << " at keyframe "
-       << view.keyframe;
-  line.send(config_.log, LogLevel::kInfo);
-}
-
-/// Retired keyframes go with their owner; where only one of the two belongs to the segment that
-/// moves, the offset between them changes.
-void Session::move_retired(int32_t segment, const Sim3& correction) {
-  for (int32_t id = keyframes_.first(); id < live_from_; ++id) {
-    Keyframe& keyframe = keyframes_[id];
-    if (!keyframe.retired()) continue;
-    const Submap& owner = submaps_[keyframe.owner];
-    const bool moves = keyframe.segment == segment;
-    const bool owner_moves = owner.segment == segment;
-    if (moves == owner_moves) continue;
-    const Sim3 T_world_kf = keyframe_pose(id);
-    const Sim3 T_world_owner = submap_pose(owner);
-    keyframe.T_owner_kf = moves ? between(T_world_owner, correction * T_world_kf)
-                                : between(correction * T_world_owner, T_world_kf);
-  }
-}
-
 /// Keyframes without a pose of their own get the submap's, in the submap's unit.
 void Session::adopt_views(const SubmapInput& input, const Submap& submap) {
-  if (broken_) return;
-  const int32_t segment = submaps_.view(submap, submap.origin).segment;
+  if (broken()) return;
+  const int32_t segment = map_.submaps.view(submap, submap.origin).segment;
   for (int32_t k = 0; k < submap.count; ++k) {
-    const SubmapView& view = submaps_.view(submap, k);
+    const SubmapView& view = map_.submaps.view(submap, k);
     if (!view.used || view.measured) continue;
-    give_node(view.keyframe, graph_.pose(submap.node) * view.T_submap_kf, segment);
+    give_node(view.keyframe, map_.graph.pose(submap.place.node) * view.T_submap_kf, segment);
     depth_.sample(input.depth[k], &sampled_);
     depth_.keep_two_view(sampled_, view.keyframe);
+  }
+}
+
+/// Keep the depth of views that another window will share.
+void Session::keep_shared_depth(const SubmapInput& input, int32_t id, const Window& window) {
+  const Submap& submap = map_.submaps[id];
+  for (int32_t k = 0; k < submap.count; ++k) {
+    const SubmapView& view = map_.submaps.view(submap, k);
+    const bool in_next_window = view.keyframe > window.last() - map_.config.window_overlap;
+    const bool in_open_window = requests_.has_window_over(view.keyframe);
+    if (!view.used || !(in_next_window || in_open_window)) continue;
+    depth_.sample(input.depth[k], &sampled_);
+    depth_.keep_submap(sampled_, {view.keyframe, id, k});
+  }
+}
+
+void Session::count_cover(int32_t id) {
+  const Submap& submap = map_.submaps[id];
+  for (int32_t k = 0; k < submap.count; ++k) {
+    const SubmapView& view = map_.submaps.view(submap, k);
+    if (!view.used) continue;
+    Keyframe& keyframe = map_.keyframes[view.keyframe];
+    const int32_t distance = std::abs(k - submap.count / 2);
+    const bool nearer = keyframe.best_submap < 0 || distance < keyframe.best_distance;
+    if (nearer && (!submap.is_loop || keyframe.window_count == 0)) {
+      keyframe.best_submap = id;
+      keyframe.best_distance = distance;
+    }
+    ++(submap.is_loop ? keyframe.loop_count : keyframe.window_count);
   }
 }
 

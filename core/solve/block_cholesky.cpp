@@ -13,8 +13,7 @@
 namespace unisim {
 
 BlockCholesky::BlockCholesky(Arena& arena, const SolverCapacity& capacity)
-    : capacity_(capacity),
-      blocks_(arena.take<Block>(capacity.factor_blocks)),
+    : blocks_(arena.take<Block>(capacity.factor_blocks)),
       first_column_(arena.take<int32_t>(capacity.nodes + 1)),
       of_column_(arena.take<int32_t>(capacity.nodes)),
       row_start_(arena.take<int32_t>(capacity.nodes + 1)),
@@ -195,7 +194,7 @@ Status BlockCholesky::reanalyze(Span<const int32_t> column_start, Span<const int
 Status BlockCholesky::analyze(Span<const int32_t> column_start, Span<const int32_t> rows,
                               int32_t kept) {
   const int32_t columns = column_start.size() - 1;
-  if (columns > capacity_.nodes || rows.size() > capacity_.pairs) return Status::kCapacity;
+  if (columns > of_column_.size() || rows.size() > off_diagonal_.size()) return Status::kCapacity;
   columns_ = columns;
   bad_column_ = -1;
   find_parents(column_start, rows);
@@ -206,7 +205,7 @@ Status BlockCholesky::analyze(Span<const int32_t> column_start, Span<const int32
     ++count[column];
     ++needed_blocks_;
   });
-  if (needed_blocks_ > capacity_.factor_blocks) return Status::kCapacity;
+  if (needed_blocks_ > blocks_.size()) return Status::kCapacity;
   choose_supernodes(count, kept);
   if (!place_supernodes(count, kept)) return Status::kCapacity;
   locate_blocks(column_start, rows);

@@ -96,7 +96,6 @@ class BlockCholesky {
   int32_t parent_supernode(int32_t s) const;
   int32_t block_count(int32_t s) const;
 
-  SolverCapacity capacity_;
   int32_t columns_ = 0;
   int32_t supernodes_ = 0;
   int64_t needed_blocks_ = 0;

@@ -24,8 +24,7 @@ SolverCapacity solver_capacity(const GraphCapacity& capacity) {
 }  // namespace
 
 Condenser::Condenser(Arena& arena, const GraphCapacity& capacity)
-    : capacity_(capacity),
-      graph_(arena, capacity),
+    : graph_(arena, capacity),
       solver_(arena, solver_capacity(capacity)),
       reached_(arena.take<uint8_t>(capacity.nodes)) {}
 

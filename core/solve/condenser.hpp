@@ -23,7 +23,6 @@ class Condenser {
 
   void clear() { graph_.clear(); }
   Graph& graph() { return graph_; }
-  const GraphCapacity& capacity() const { return capacity_; }
 
   /// @param a, b nodes of graph(); poses of graph() are optimised on the way
   /// @return false when pose factors do not join a and b, or do not determine b
@@ -32,7 +31,6 @@ class Condenser {
  private:
   void hold_unreached(int32_t a);
 
-  GraphCapacity capacity_;
   Graph graph_;
   LevenbergMarquardt solver_;
   Span<uint8_t> reached_;

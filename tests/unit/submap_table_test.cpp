@@ -23,7 +23,7 @@ TEST_CASE("submaps are found by id after others were erased") {
   for (int32_t id = 0; id < 20; ++id) {
     REQUIRE(f.table.has_room(false));
     REQUIRE(f.table.append(false, 2) == id);
-    f.table[id].window_first = 10 * id;
+    f.table[id].window.first = 10 * id;
     f.table.release_views(&f.table[id]);
     if (id >= 3) f.table.erase(f.table.at(id % 2).id);
   }
@@ -33,7 +33,7 @@ TEST_CASE("submaps are found by id after others were erased") {
     if (!f.table.has(id)) continue;
     ++found;
     CHECK(f.table[id].id == id);
-    CHECK(f.table[id].window_first == 10 * id);
+    CHECK(f.table[id].window.first == 10 * id);
   }
   CHECK(found == f.table.size());
   CHECK_FALSE(f.table.has(20));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One-line messages put together without the C library's formatting.
-#include "core/session/event_log.hpp"
+#include "core/base/event_log.hpp"
 
 namespace unisim {
 

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/base/event_log.hpp"
 #include "core/graph/edge.hpp"
 #include "core/graph/graph.hpp"
 #include "core/map/depth_book.hpp"
 #include "core/map/submap_table.hpp"
-#include "core/session/event_log.hpp"
 #include "core/solve/solver_capacity.hpp"
 
 namespace unisim {
@@ -62,6 +62,14 @@ struct SessionConfig {
   LogSink log;
 
   const FactorSetting& factor(FactorKind kind) const { return factors[static_cast<int>(kind)]; }
+  bool slides() const { return window_submaps > 0; }
+  RobustKernel kernel(EdgeOrigin origin) const {
+    if (origin == EdgeOrigin::kLoop) return {RobustKernelKind::kGemanMcClure, loop_delta};
+    return {RobustKernelKind::kHuber, huber_delta};
+  }
+  EdgeWeight edge_weight(FactorKind kind, double multiplier, EdgeOrigin origin) const {
+    return {factor(kind).information, multiplier, kernel(origin), origin};
+  }
 };
 
 /// Every array length of a session. Of a sliding window none depends on how long it runs.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a session is made with, and the sizes that follow from it.
-#include "core/session/session_config.hpp"
+#include "core/session_config.hpp"
 
 #include <algorithm>
 

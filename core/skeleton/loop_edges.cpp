@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Condensed loops: a bounded number of chain edges.
+#include "core/skeleton/loop_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/graph/chain_transfer.hpp"
+
+namespace unisim {
+namespace {
+
+// Square of the whitened difference below which two loops between the same nodes say the same: one
+// standard deviation over all seven numbers together.
+constexpr double kLargestDisagreement = 1.0;
+
+}  // namespace
+
+int32_t replace_chain(Map& map, int32_t id, int32_t a, int32_t b, const ChainLink& link) {
+  const Edge edge = map.graph.edge(id);
+  int32_t made = -1;
+  map.holds(map.graph.remove_edge(id));
+  if (!map.holds(map.graph.add_chain(a, b, link, edge.given_weight(), &made))) return id;
+  map.holds(map.graph.set_suspended(made, edge.suspended));
+  return made;
+}
+
+int32_t LoopEdges::place_of(int32_t edge) const {
+  for (int32_t place = 0; place < edges_.size(); ++place) {
+    if (edges_[place].edge == edge) return place;
+  }
+  return -1;
+}
+
+bool LoopEdges::join(int32_t a, int32_t b, const ChainLink& link, Submap* loop) {
+  const int32_t same = loop->health.suspended ? -1 : fusible(a, b, link, -1);
+  if (same < 0) return false;
+  fuse(same, link);
+  ++edges_[same].loops;
+  edges_[same].loop = loop->id;
+  loop->loop_edge = same;
+  return true;
+}
+
+void LoopEdges::add(int32_t a, int32_t b, const ChainLink& link, Submap* loop) {
+  int32_t place = place_of(-1);
+  if (place < 0) {
+    place = edges_.size();
+    edges_.resize(place + 1);
+    edges_[place] = LoopEdge();
+  }
+  LoopEdge made;
+  const EdgeWeight weight = {1.0, 1.0, map_.config.kernel(EdgeOrigin::kLoop), EdgeOrigin::kLoop};
+  if (!map_.holds(map_.graph.add_chain(a, b, link, weight, &made.edge))) return;
+  map_.holds(map_.graph.set_suspended(made.edge, loop->health.suspended));
+  watch_.take(loop->health);
+  made.loop = loop->id;
+  made.loops = 1;
+  made.health = loop->health;
+  edges_[place] = made;
+  loop->loop_edge = place;
+}
+
+/// Place of an edge between the same nodes, other than `but`, that says the same. -1: none
+int32_t LoopEdges::fusible(int32_t a, int32_t b, const ChainLink& link, int32_t but) const {
+  for (int32_t place = 0; place < edges_.size(); ++place) {
+    const LoopEdge& other = edges_[place];
+    if (place == but || other.edge < 0 || other.health.suspended) continue;
+    const Edge& edge = map_.graph.edge(other.edge);
+    if (edge.a != a || edge.b != b) continue;
+    if (disagreement_squared(link, map_.graph.link(edge)) <= kLargestDisagreement) return place;
+  }
+  return -1;
+}
+
+void LoopEdges::fuse(int32_t place, const ChainLink& link) {
+  const Edge edge = map_.graph.edge(edges_[place].edge);
+  const ChainLink fused = unisim::fuse(map_.graph.link(edge), link);
+  // Informations at the end of the range of numbers do not survive a sum.
+  if (!valid_link(fused)) return;
+  edges_[place].edge = replace_chain(map_, edges_[place].edge, edge.a, edge.b, fused);
+}
+
+/// Loops that do not agree stay rivals.
+void LoopEdges::fuse_at(int32_t node) {
+  for (int32_t place = 0; place < edges_.size(); ++place) {
+    const LoopEdge one = edges_[place];
+    if (one.edge < 0 || one.health.suspended) continue;
+    const Edge edge = map_.graph.edge(one.edge);
+    if (edge.a != node && edge.b != node) continue;
+    const ChainLink link = map_.graph.link(edge);
+    const int32_t other = fusible(edge.a, edge.b, link, place);
+    if (other < 0) continue;
+    fuse(other, link);
+    edges_[other].loops += one.loops;
+    edges_[other].loop = std::max(edges_[other].loop, one.loop);
+    map_.holds(map_.graph.remove_edge(one.edge));
+    release(place, other);
+  }
+}
+
+void LoopEdges::release(int32_t place, int32_t into) {
+  watch_.leave(edges_[place].health);
+  edges_[place] = LoopEdge();
+  for (int32_t k = 0; k < map_.submaps.size(); ++k) {
+    if (map_.submaps.at(k).loop_edge == place) map_.submaps.at(k).loop_edge = into;
+  }
+}
+
+int32_t LoopEdges::remove(int32_t place) {
+  const LoopEdge gone = edges_[place];
+  for (int32_t k = 0; k < map_.submaps.size(); ++k) {
+    if (map_.submaps.at(k).loop_edge == place) map_.submaps.at(k).removed = true;
+  }
+  map_.holds(map_.graph.remove_edge(gone.edge));
+  release(place, -1);
+  return gone.loops;
+}
+
+void LoopEdges::drop(int32_t place) {
+  LogLine line;
+  line << "loop " << edges_[place].loop
+       << " dropped: loop edges at their limit, another says much the same";
+  line.send(map_.config.log, LogLevel::kInfo);
+  dropped_loops_ += remove(place);
+}
+
+void LoopEdges::drop_at(int32_t node) {
+  for (int32_t place = 0; place < edges_.size(); ++place) {
+    const int32_t id = edges_[place].edge;
+    if (id < 0) continue;
+    const Edge& edge = map_.graph.edge(id);
+    if (edge.a == node || edge.b == node) drop(place);
+  }
+}
+
+/// Measured: moving the ends of that edge to those of the other and fusing the two is no better.
+int32_t LoopEdges::weakest(Span<const int32_t> order) const {
+  int32_t weakest = -1;
+  int32_t nearest = std::numeric_limits<int32_t>::max();
+  for (int32_t one = 0; one < edges_.size(); ++one) {
+    if (edges_[one].edge < 0) continue;
+    if (edges_[one].health.suspended) return one;
+    if (weakest < 0) weakest = one;
+    const Edge& edge = map_.graph.edge(edges_[one].edge);
+    for (int32_t other = one + 1; other < edges_.size(); ++other) {
+      if (edges_[other].edge < 0) continue;
+      const Edge& rival = map_.graph.edge(edges_[other].edge);
+      const int32_t apart =
+          std::abs(order[edge.a] - order[rival.a]) + std::abs(order[edge.b] - order[rival.b]);
+      if (apart >= nearest) continue;
+      nearest = apart;
+      const bool surer =
+          map_.graph.link(edge).Lambda.trace() > map_.graph.link(rival).Lambda.trace();
+      weakest = surer ? other : one;
+    }
+  }
+  return weakest;
+}
+
+}  // namespace unisim

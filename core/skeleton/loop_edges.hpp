@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Condensed loops: a bounded number of chain edges.
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/fixed_vector.hpp"
+#include "core/graph/chain.hpp"
+#include "core/map/map.hpp"
+#include "core/skeleton/loop_edge.hpp"
+#include "core/skeleton/loop_watch.hpp"
+
+namespace unisim {
+
+/// Put another chain edge in the place of one. @return the edge that took its place
+int32_t replace_chain(Map& map, int32_t edge, int32_t a, int32_t b, const ChainLink& link);
+
+/// Each has a place, which its loop submaps know. Those between the same two nodes that say the
+/// same are fused.
+class LoopEdges {
+ public:
+  LoopEdges(Arena& arena, int32_t capacity, Map& map, LoopWatch& watch)
+      : map_(map), watch_(watch), edges_(arena, capacity) {}
+
+  /// All places, the free ones included.
+  Span<LoopEdge> all() { return edges_.span(); }
+  const LoopEdge& operator[](int32_t place) const { return edges_[place]; }
+  LoopEdge& operator[](int32_t place) { return edges_[place]; }
+  bool empty() const {
+    for (const LoopEdge& loop : edges_) {
+      if (loop.edge >= 0) return false;
+    }
+    return true;
+  }
+  bool full() const { return edges_.full() && place_of(-1) < 0; }
+  /// Place of an edge of the graph. -1: it is no loop's
+  int32_t place_of(int32_t edge) const;
+
+  /// Make the loop part of an edge that says the same. false: there is none
+  bool join(int32_t a, int32_t b, const ChainLink& link, Submap* loop);
+  /// Give the loop an edge of its own; not when full().
+  void add(int32_t a, int32_t b, const ChainLink& link, Submap* loop);
+  /// Node a has got the edges of another node: fuse what says the same now.
+  void fuse_at(int32_t node);
+
+  /// The place is free, its edge is gone from the graph or belongs to another place; its loops
+  /// belong to the edge at `into` from now on, or to none (-1).
+  void release(int32_t place, int32_t into);
+  /// Take the edge away for good. @return loops that went with it
+  int32_t remove(int32_t place);
+  /// remove(), to stay within memory.
+  void drop(int32_t place);
+  /// drop() all at a node that is about to go.
+  void drop_at(int32_t node);
+  /// The edge that can be missed best: a suspended one, else of the two that join most nearly the
+  /// same places the less sure, since what it says the other says too.
+  /// @param order place in time by node
+  /// @return its place; -1: there are none
+  int32_t weakest(Span<const int32_t> order) const;
+
+  int32_t dropped_loops() const { return dropped_loops_; }
+
+ private:
+  int32_t fusible(int32_t a, int32_t b, const ChainLink& link, int32_t but) const;
+  void fuse(int32_t place, const ChainLink& link);
+
+  Map& map_;
+  LoopWatch& watch_;
+  FixedVector<LoopEdge> edges_;
+  int32_t dropped_loops_ = 0;
+};
+
+}  // namespace unisim
