@@ -32,7 +32,7 @@ void DepthBook::sample(const DepthMap& map, SampledDepth* sampled) {
 }
 
 bool DepthBook::compare(Span<const float> map, Span<const float> kept, LogMedianRatio* ratio) {
-  const Status status = log_median_ratio({map, {}}, {kept, {}}, 0.0, scratch_, ratio);
+  const Status status = log_median_ratio(map, kept, scratch_, ratio);
   return is_ok(status) && ratio->count >= kFewestSamples;
 }
 

@@ -13,11 +13,11 @@ using namespace unisim;
 namespace {
 
 struct Maps {
-  std::vector<float> a, b, confidence_a, confidence_b;
+  std::vector<float> a, b;
 
-  Status ratio(double drop, LogMedianRatio* out) {
+  Status ratio(LogMedianRatio* out) {
     scratch.resize(a.size());
-    return log_median_ratio({span(a), span(confidence_a)}, {span(b), span(confidence_b)}, drop,
+    return log_median_ratio(span(a), span(b),
                             Span<float>(scratch.data(), static_cast<int32_t>(scratch.size())), out);
   }
   static Span<const float> span(const std::vector<float>& v) {
@@ -32,9 +32,9 @@ const float kInf = std::numeric_limits<float>::infinity();
 }  // namespace
 
 TEST_CASE("the ratio is the median and the scatter its median deviation") {
-  Maps maps{{2, 4, 8, 3, 100}, {1, 1, 1, 1, 1}, {}, {}, {}};
+  Maps maps{{2, 4, 8, 3, 100}, {1, 1, 1, 1, 1}, {}};
   LogMedianRatio out{};
-  REQUIRE(maps.ratio(0.0, &out) == Status::kOk);
+  REQUIRE(maps.ratio(&out) == Status::kOk);
   CHECK(out.log_ratio == Approx(std::log(4.0)));
   // deviations: log 2, 0, log 2, log 4/3, log 25 -> median log 2
   CHECK(out.scatter == Approx(std::log(2.0)));
@@ -42,56 +42,27 @@ TEST_CASE("the ratio is the median and the scatter its median deviation") {
 }
 
 TEST_CASE("pixels without depth in either map are left out") {
-  Maps maps{{2, kNan, 2, 0, -1, kInf, 2}, {1, 1, kNan, 1, 1, 1, 0}, {}, {}, {}};
+  Maps maps{{2, kNan, 2, 0, -1, kInf, 2}, {1, 1, kNan, 1, 1, 1, 0}, {}};
   LogMedianRatio out{};
-  REQUIRE(maps.ratio(0.0, &out) == Status::kOk);
+  REQUIRE(maps.ratio(&out) == Status::kOk);
   CHECK(out.count == 1);
   CHECK(out.log_ratio == Approx(std::log(2.0)));
   CHECK(out.scatter == 0.0);
 }
 
-TEST_CASE("the least confident share of each map is dropped") {
-  Maps maps{{9, 2, 2, 2}, {1, 1, 1, 9}, {0, 3, 2, 1}, {5, 6, 7, 0}, {}};
-  LogMedianRatio out{};
-  REQUIRE(maps.ratio(0.25, &out) == Status::kOk);
-  CHECK(out.count == 2);
-  CHECK(out.log_ratio == Approx(std::log(2.0)));
-}
-
-TEST_CASE("pixels that tie with the confidence limit stay") {
-  Maps maps{{2, 2, 2, 2}, {1, 1, 1, 1}, {1, 1, 1, 1}, {}, {}};
-  LogMedianRatio out{};
-  REQUIRE(maps.ratio(0.5, &out) == Status::kOk);
-  CHECK(out.count == 4);
-}
-
-TEST_CASE("pixels without a confidence are left out") {
-  Maps maps{{2, 3}, {1, 1}, {kNan, 1}, {}, {}};
-  LogMedianRatio out{};
-  REQUIRE(maps.ratio(0.0, &out) == Status::kOk);
-  CHECK(out.count == 1);
-  CHECK(out.log_ratio == Approx(std::log(3.0)));
-}
-
 TEST_CASE("nothing in common is not ready and leaves the output") {
-  Maps maps{{kNan, 1}, {1, kNan}, {}, {}, {}};
+  Maps maps{{kNan, 1}, {1, kNan}, {}};
   LogMedianRatio out{7.0, 8.0, 9};
-  CHECK(maps.ratio(0.0, &out) == Status::kNotReady);
+  CHECK(maps.ratio(&out) == Status::kNotReady);
   CHECK(out.count == 9);
 }
 
-TEST_CASE("wrong lengths, short scratch and shares out of range are refused") {
-  Maps maps{{1, 1}, {1, 1}, {}, {}, {}};
+TEST_CASE("wrong lengths and short scratch are refused") {
+  Maps maps{{1, 1}, {1, 1}, {}};
   LogMedianRatio out{};
-  CHECK(maps.ratio(-0.1, &out) == Status::kInvalidArgument);
-  CHECK(maps.ratio(0.95, &out) == Status::kInvalidArgument);
-  CHECK(maps.ratio(std::nan(""), &out) == Status::kInvalidArgument);
-  const DepthGrid grid{Maps::span(maps.a), {}};
-  CHECK(log_median_ratio(grid, grid, 0.0, Span<float>(maps.scratch.data(), 1), &out) ==
-        Status::kInvalidArgument);
+  REQUIRE(maps.ratio(&out) == Status::kOk);
+  CHECK(log_median_ratio(Maps::span(maps.a), Maps::span(maps.b),
+                         Span<float>(maps.scratch.data(), 1), &out) == Status::kInvalidArgument);
   maps.b.push_back(1);
-  CHECK(maps.ratio(0.0, &out) == Status::kInvalidArgument);
-  maps.b.pop_back();
-  maps.confidence_b = {1};
-  CHECK(maps.ratio(0.0, &out) == Status::kInvalidArgument);
+  CHECK(maps.ratio(&out) == Status::kInvalidArgument);
 }

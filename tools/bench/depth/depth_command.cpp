@@ -26,7 +26,6 @@ struct Size {
 // The grids of a session at its smallest use and by default, common cameras, a network's output.
 constexpr Size kSizes[] = {{20, 15}, {80, 60}, {160, 120}, {320, 240}, {518, 392}, {640, 480}};
 
-constexpr double kConfidenceDrop = 0.25;       // the session's default
 constexpr int64_t kPixelsPerTiming = 1000000;  // one timing is far longer than the clock's grain
 
 /// Two maps of one view: the second is noisy, in another unit, with some pixels of no depth.
@@ -38,36 +37,31 @@ struct Maps {
       a.push_back(static_cast<float>(depth));
       const double seen = depth * 1.3 * random.uniform(0.9, 1.1);
       b.push_back(random.uniform() < 0.05 ? 0.0F : static_cast<float>(seen));
-      confidence_a.push_back(static_cast<float>(random.uniform()));
-      confidence_b.push_back(static_cast<float>(random.uniform()));
     }
     scratch.resize(static_cast<size_t>(log_median_ratio_scratch(pixels)));
   }
-  std::vector<float> a, b, confidence_a, confidence_b, scratch;
+  std::vector<float> a, b, scratch;
 };
 
 Span<const float> view(const std::vector<float>& values) {
   return {values.data(), static_cast<int32_t>(values.size())};
 }
 
-void take_ratio(Maps* maps, bool confidence) {
-  const Span<const float> none;
-  const DepthGrid a{view(maps->a), confidence ? view(maps->confidence_a) : none};
-  const DepthGrid b{view(maps->b), confidence ? view(maps->confidence_b) : none};
+void take_ratio(Maps* maps) {
   LogMedianRatio ratio{};
   const Status status =
-      log_median_ratio(a, b, kConfidenceDrop,
+      log_median_ratio(view(maps->a), view(maps->b),
                        {maps->scratch.data(), static_cast<int32_t>(maps->scratch.size())}, &ratio);
   if (!is_ok(status)) throw tools::Failure(tools::kExitOther, "log_median_ratio failed");
 }
 
-double median_ms(Maps* maps, bool confidence, int32_t repeat) {
+double median_ms(Maps* maps, int32_t repeat) {
   const int64_t calls =
       std::max<int64_t>(1, kPixelsPerTiming / static_cast<int64_t>(maps->a.size()));
   std::vector<double> times;
   for (int32_t k = 0; k < repeat; ++k) {
     const double start = process_cpu_ms();
-    for (int64_t call = 0; call < calls; ++call) take_ratio(maps, confidence);
+    for (int64_t call = 0; call < calls; ++call) take_ratio(maps);
     times.push_back((process_cpu_ms() - start) / static_cast<double>(calls));
   }
   std::sort(times.begin(), times.end());
@@ -82,18 +76,16 @@ int depth_command(const DepthSettings& settings) {
     Maps maps(size.width * size.height);
     sizes.push_back({{"width", size.width},
                      {"height", size.height},
-                     {"ms", median_ms(&maps, false, settings.repeat)},
-                     {"ms_with_confidence", median_ms(&maps, true, settings.repeat)}});
+                     {"ms", median_ms(&maps, settings.repeat)}});
   }
   if (settings.json) {
     tools::print(tools::json_text({{"depth_ratio", sizes}}) + "\n");
     return tools::kExitDone;
   }
-  std::string text = tools::format("%12s %12s %20s\n", "size", "ms", "ms with confidence");
+  std::string text = tools::format("%12s %12s\n", "size", "ms");
   for (const auto& row : sizes) {
-    text +=
-        tools::format("%7dx%-4d %12.4f %20.4f\n", row["width"].get<int>(), row["height"].get<int>(),
-                      row["ms"].get<double>(), row["ms_with_confidence"].get<double>());
+    text += tools::format("%7dx%-4d %12.4f\n", row["width"].get<int>(), row["height"].get<int>(),
+                          row["ms"].get<double>());
   }
   tools::print(text);
   return tools::kExitDone;
