@@ -14,6 +14,8 @@ inline Sim3 bridge_measurement(const Sim3& T_submap_kf, double rho_mi) {
   return T_submap_kf * Sim3::scaling(rho_mi);
 }
 
+// Residual and Jacobians as written, for tests: the solver runs relative_pose_pack.hpp.
+
 /// e = log(Z_m_i^-1 T_world_submap^-1 T_world_kf), 7 rows.
 inline Vec7 bridge_residual(const Sim3& T_world_submap, const Sim3& T_world_kf, const Sim3& Z_m_i) {
   return relative_pose_residual(T_world_submap, T_world_kf, Z_m_i, Sim3());

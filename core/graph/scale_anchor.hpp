@@ -6,6 +6,8 @@
 
 namespace unisim {
 
+// The residual as written, for tests: the solver runs scale_ratio.hpp for both scale factors.
+
 /// e = log s_i - log s_m - log rho_mi, 1 row.
 /// @param log_rho_mi log median(D_i in submap m / D_i in its two-view pair)
 inline double scale_anchor_residual(const Sim3& T_world_submap, const Sim3& T_world_kf,

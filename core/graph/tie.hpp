@@ -13,6 +13,8 @@ inline Sim3 tie_measurement(const Sim3& T_submap_m_kf, double c_i) {
   return T_submap_m_kf * Sim3::scaling(c_i);
 }
 
+// Residual and Jacobians as written, for tests: the solver runs relative_pose_pack.hpp.
+
 /// e = log((T_world_m P)^-1 T_world_n T_submap_n_kf), 7 rows.
 inline Vec7 tie_residual(const Sim3& T_world_m, const Sim3& T_world_n, const Sim3& P,
                          const Sim3& T_submap_n_kf) {

@@ -14,6 +14,8 @@ inline Sim3 two_view_measurement(const Sim3& T_i_j, double r_i) {
   return Sim3::scaling(r_i) * T_i_j;
 }
 
+// Residual and Jacobians as written, for tests: the solver runs relative_pose_pack.hpp.
+
 /// e = log(Z_i_j^-1 T_world_i^-1 T_world_j), 7 rows.
 inline Vec7 two_view_residual(const Sim3& T_world_i, const Sim3& T_world_j, const Sim3& Z_i_j) {
   return relative_pose_residual(T_world_i, T_world_j, Z_i_j, Sim3());

@@ -49,9 +49,11 @@ struct LmReport {
 
 /// Minimises the cost of a graph over its free nodes, in memory carved at construction.
 ///
-/// Serves one graph and keeps its last system. When the graph has changed, only the columns of what
-/// changed and those above them in the elimination tree are linearised, ordered and factorised
-/// anew.
+/// Serves one graph and keeps its last system H dx = g with the factor L of H, one column per free
+/// node. A column of L depends on the edges of its node and on columns eliminated before it, so a
+/// change spreads along one path each: from the column of the node up to the root of the
+/// elimination tree (solve/ordering.hpp). Only columns on such paths are linearised, ordered and
+/// factorised anew, all others are still right.
 class LevenbergMarquardt {
  public:
   LevenbergMarquardt() = default;

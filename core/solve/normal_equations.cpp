@@ -26,13 +26,17 @@ const double* numbers(const Sim3& T) { return T.q.coeffs().data(); }
 
 }  // namespace
 
-/// Which parts of an edge are asked for, and where each adds its numbers. A part that is not asked
-/// for, or belongs to a fixed node, points at a sink: memory that nobody reads.
+/// Where the numbers of one edge between nodes a and b are added: up to three blocks of H and two
+/// of the gradient.
+///
+/// Not all are wanted each time, since only stale columns are linearised anew and a fixed node has
+/// no column. The pointer of one that is not wanted leads to a sink, memory that nobody reads, so
+/// that the sums need no case by case.
 struct NormalEquations::Ends {
   bool needs_blocks;
   bool needs_gradient;
-  bool is_whole;  ///< no column holds an older part of the edge
-  bool a_is_later;
+  bool is_whole;    ///< no column holds an older part of the edge
+  bool a_is_later;  ///< a has the later column: the coupling block is its row
   Block* diagonal_a;
   Block* diagonal_b;
   Block* coupling;
