@@ -18,10 +18,10 @@ namespace {
 // No driver has so many; a broken one would answer for ever.
 constexpr uint32_t kMostEntries = 512;
 
-template <size_t N>
-std::string text_of(const uint8_t (&bytes)[N]) {
+template <size_t kSize>
+std::string text_of(const uint8_t (&bytes)[kSize]) {
   const char* text = reinterpret_cast<const char*>(bytes);
-  return std::string(text, strnlen(text, N));
+  return std::string(text, strnlen(text, kSize));
 }
 
 // Next entry of a list of the driver. @return false: past its end
@@ -92,6 +92,7 @@ std::vector<std::string> list_devices(Io& io) {
   if (answer < 0) throw call_failed("/dev", "opendir", -answer);
   std::sort(numbers.begin(), numbers.end());
   std::vector<std::string> paths;
+  paths.reserve(numbers.size());
   for (const int number : numbers) paths.push_back("/dev/video" + std::to_string(number));
   return paths;
 }

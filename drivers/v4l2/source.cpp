@@ -25,9 +25,9 @@ constexpr int kMostDamaged = 30;
 
 CameraSource* self(unisim_source* source) { return static_cast<CameraSource*>(source); }
 
-template <size_t N>
-void copy_text(char (&to)[N], const std::string& from) {
-  std::snprintf(to, N, "%s", from.c_str());
+template <size_t kSize>
+void copy_text(char (&to)[kSize], const std::string& from) {
+  std::snprintf(to, kSize, "%s", from.c_str());
 }
 
 }  // namespace

@@ -11,9 +11,9 @@
 namespace unisim::test {
 namespace {
 
-template <size_t N>
-void copy_text(uint8_t (&to)[N], const std::string& from) {
-  std::snprintf(reinterpret_cast<char*>(to), N, "%s", from.c_str());
+template <size_t kSize>
+void copy_text(uint8_t (&to)[kSize], const std::string& from) {
+  std::snprintf(reinterpret_cast<char*>(to), kSize, "%s", from.c_str());
 }
 
 const FakeFormat* format_of(const FakeCamera& camera, uint32_t fourcc) {
