@@ -125,6 +125,25 @@ TEST_CASE("parts of a map that nothing joins are forgotten oldest first") {
   CHECK(walk.chain_edges(EdgeOrigin::kWindow) == 0);
 }
 
+TEST_CASE("a loop that ends in a part that is forgotten goes with it") {
+  MapWalk walk;
+  for (int32_t k = 0; k < 4; ++k) {
+    walk.segment = k;
+    walk.add_keyframes(4);
+    walk.add_window();
+    if (k == 1) walk.add_loop(0, 4);
+  }
+  REQUIRE_FALSE(walk.skeleton.loop_edges().empty());
+  for (int32_t k = 4; k < 10; ++k) {
+    walk.segment = k;
+    walk.add_keyframes(4);
+    walk.add_window();
+  }
+  CHECK(walk.skeleton.loop_edges().empty());
+  CHECK(walk.skeleton.loop_edges().dropped_loops() == 1);
+  CHECK_FALSE(walk.map.broken());
+}
+
 TEST_CASE("a loop whose keyframes have retired becomes one edge between two nodes") {
   MapWalk walk;
   for (int32_t k = 0; k < 3; ++k) walk.walk_on();
