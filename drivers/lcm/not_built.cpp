@@ -1,22 +1,42 @@
 // SPDX-License-Identifier: MIT
-// What publisher.h says in a build without LCM.
+// What publisher.h and subscriber.h say in a build without LCM.
 #include <cstdio>
 
 #include "drivers/lcm/publisher.h"
+#include "drivers/lcm/subscriber.h"
+
+namespace {
+
+void refuse(int32_t* problem, char* message, size_t capacity) {
+  if (problem != nullptr) *problem = UNISIM_LCM_NOT_BUILT;
+  if (message == nullptr || capacity == 0) return;
+  std::snprintf(message, capacity,
+                "lcm: built without LCM; install liblcm-dev and liblcm-bin, then configure and "
+                "build again");
+}
+
+}  // namespace
+
+unisim_source* unisim_lcm_subscribe(const unisim_lcm_subscriber_config*, int32_t* problem,
+                                    char* message, size_t capacity) {
+  refuse(problem, message, capacity);
+  return nullptr;
+}
+
+const char* unisim_lcm_subscriber_note(const unisim_source*, int32_t) { return nullptr; }
+
+void unisim_lcm_subscriber_get_counts(const unisim_source*, unisim_lcm_subscriber_counts*) {}
 
 unisim_lcm_publisher* unisim_lcm_publisher_create(const unisim_lcm_publisher_config*,
                                                   int32_t* problem, char* message,
                                                   size_t capacity) {
-  if (problem != nullptr) *problem = UNISIM_LCM_NOT_BUILT;
-  if (message != nullptr && capacity > 0) {
-    std::snprintf(message, capacity,
-                  "lcm: built without LCM; install liblcm-dev and liblcm-bin, then configure and "
-                  "build again");
-  }
+  refuse(problem, message, capacity);
   return nullptr;
 }
 
 void unisim_lcm_publisher_destroy(unisim_lcm_publisher*) {}
+
+void unisim_lcm_publisher_flush(unisim_lcm_publisher*) {}
 
 int unisim_lcm_publish_pose(unisim_lcm_publisher*, int64_t, const unisim_sim3*) {
   return UNISIM_LCM_REFUSED;

@@ -45,17 +45,18 @@ int unisim_lcm_publish_trajectory(unisim_lcm_publisher* publisher, int64_t times
 int unisim_lcm_publish_points(unisim_lcm_publisher* publisher, const unisim_lcm_points* points) {
   if (publisher == nullptr || points == nullptr || points->struct_size < sizeof *points ||
       points->count < 0 || (points->count > 0 && points->xyz == nullptr) ||
-      !is_pose(points->T_world_submap)) {
+      !is_pose(points->T_world_points)) {
     return UNISIM_LCM_REFUSED;
   }
   unisim_points_t out{};
   out.utime = microseconds(points->timestamp_ns);
   out.map_revision = points->map_revision;
   out.submap = points->submap_id;
+  out.keyframe = points->keyframe_id;
   out.segment = points->segment;
   out.unit = publisher->unit;
-  put_pose(points->T_world_submap, out.pos, out.orientation);
-  out.scale = points->T_world_submap.s;
+  put_pose(points->T_world_points, out.pos, out.orientation);
+  out.scale = points->T_world_points.s;
   constexpr int32_t kChunk = UNISIM_LCM_CHUNK_POINTS;
   out.chunks = std::max((points->count - 1) / kChunk + 1, 1);
   for (out.chunk = 0; out.chunk < out.chunks; ++out.chunk) {

@@ -89,6 +89,8 @@ void unisim_lcm_publisher_destroy(unisim_lcm_publisher* publisher) {
   delete publisher;
 }
 
+void unisim_lcm_publisher_flush(unisim_lcm_publisher* publisher) { publisher->queue->flush(); }
+
 int unisim_lcm_next_request(unisim_lcm_publisher* publisher, int32_t* first_id) {
   if (publisher->requests == nullptr) return 0;
   pollfd waiting = {lcm_get_fileno(publisher->network.get()), POLLIN, 0};

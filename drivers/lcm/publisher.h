@@ -58,6 +58,10 @@ unisim_lcm_publisher* unisim_lcm_publisher_create(const unisim_lcm_publisher_con
 /** Give what is queued up to a second to go out, end the thread. NULL is fine. */
 void unisim_lcm_publisher_destroy(unisim_lcm_publisher* publisher);
 
+/** Wait up to a second for what is queued to go out: before the counters are read at the end.
+ *  @param publisher live publisher */
+void unisim_lcm_publisher_flush(unisim_lcm_publisher* publisher);
+
 /** UNISIM_POSE: the pose of a frame as it is known first.
  *  @param publisher live publisher
  *  @param timestamp_ns of the frame
@@ -155,13 +159,13 @@ int unisim_lcm_publish_status(unisim_lcm_publisher* publisher, const unisim_lcm_
 typedef struct unisim_lcm_points {
   uint32_t struct_size; /**< sizeof this struct, set by the caller */
   int32_t submap_id;
-  int64_t timestamp_ns; /**< of the newest frame */
-  int32_t map_revision; /**< of T_world_submap */
-  int32_t segment;      /**< -1: not known */
-  unisim_sim3 T_world_submap;
-  const float* xyz; /**< 3 count values in the frame of the submap, read during the call */
+  int64_t timestamp_ns;       /**< of the keyframe */
+  int32_t map_revision;       /**< of T_world_points */
+  int32_t segment;            /**< of the keyframe */
+  unisim_sim3 T_world_points; /**< rotation and translation of the keyframe, unit of the points */
+  const float* xyz; /**< 3 count values in the camera frame of the keyframe, read during the call */
   int32_t count;    /**< any; more than UNISIM_LCM_CHUNK_POINTS go in several messages */
-  int32_t reserved; /**< 0 */
+  int32_t keyframe_id;
 } unisim_lcm_points;
 
 /** UNISIM_POINTS.

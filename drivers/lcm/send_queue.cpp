@@ -23,6 +23,7 @@ class SendQueue::Shared {
 
   bool put(const char* channel, size_t size, Writer writer, void* context);
   void send_all();
+  void flush();
   /// @return false when the thread is still inside the network
   bool stop();
   SendCounts counts() const {
@@ -116,9 +117,18 @@ void SendQueue::Shared::send_all() {
     const int error_number = errno;
     lock.lock();
     count(answer, error_number);
+    if (count_ == 0) changed_.notify_all();
   }
   ended_ = true;
   changed_.notify_all();
+}
+
+void SendQueue::Shared::flush() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  const auto all_gone = [this] {
+    return counts_.sent + counts_.failed + counts_.dropped == counts_.queued;
+  };
+  changed_.wait_for(lock, kFarewell, all_gone);
 }
 
 bool SendQueue::Shared::stop() {
@@ -145,6 +155,8 @@ SendQueue::~SendQueue() {
 bool SendQueue::put_with(const char* channel, size_t size, Writer writer, void* context) {
   return shared_->put(channel, size, writer, context);
 }
+
+void SendQueue::flush() { shared_->flush(); }
 
 SendCounts SendQueue::counts() const { return shared_->counts(); }
 

@@ -42,6 +42,9 @@ class SendQueue {
     return put_with(channel, size, &call<Write>, &write);
   }
 
+  /// Waits up to a second for all that is queued to be sent.
+  void flush();
+
   SendCounts counts() const;
 
  private:

@@ -13,12 +13,6 @@
 
 namespace unisim::sequence {
 
-/// Positions [from, to) of a sequence.
-struct FrameRange {
-  int64_t from;
-  int64_t to;
-};
-
 /// A unisim_source in C++: no exception leaves the functions of the table.
 class FrameSource : public unisim_source {
  public:
@@ -61,8 +55,5 @@ class FrameSource : public unisim_source {
 /// Source over image files. @param range already clipped to the recording
 std::unique_ptr<FrameSource> make_image_source(const char* format, Recording recording,
                                                FrameRange range);
-
-/// Source over a video file. @throws InputError when it cannot be played
-std::unique_ptr<FrameSource> make_video_source(const OpenRequest& request, FrameRange range);
 
 }  // namespace unisim::sequence

@@ -19,15 +19,6 @@ namespace {
 constexpr std::streamoff kMaxFileBytes = 256 << 20;
 constexpr size_t kTailBytes = 1024;  // some writers append a few bytes after the end mark
 
-// Decoders fill the missing part of a cut-off JPEG or PNG with gray: the end mark tells.
-bool is_truncated(const std::vector<uint8_t>& file) {
-  const std::string_view all(reinterpret_cast<const char*>(file.data()), file.size());
-  const std::string_view tail = all.substr(all.size() - std::min(all.size(), kTailBytes));
-  if (all.substr(0, 2) == "\xFF\xD8") return tail.find("\xFF\xD9") == std::string_view::npos;
-  if (all.substr(0, 4) == "\x89PNG") return tail.find("IEND") == std::string_view::npos;
-  return false;
-}
-
 // The orientation a file names. TIFF decoders turn by themselves: they are told there is nothing to
 // do.
 int take_orientation(std::vector<uint8_t>* file) {
@@ -45,6 +36,15 @@ std::string size_text(const cv::Size& size) {
 }
 
 }  // namespace
+
+// The end mark tells.
+bool is_truncated(const std::vector<uint8_t>& file) {
+  const std::string_view all(reinterpret_cast<const char*>(file.data()), file.size());
+  const std::string_view tail = all.substr(all.size() - std::min(all.size(), kTailBytes));
+  if (all.substr(0, 2) == "\xFF\xD8") return tail.find("\xFF\xD9") == std::string_view::npos;
+  if (all.substr(0, 4) == "\x89PNG") return tail.find("IEND") == std::string_view::npos;
+  return false;
+}
 
 bool SizeCheck::fits(const cv::Mat& image, std::string* message) {
   if (size_.empty()) size_ = image.size();

@@ -22,6 +22,9 @@ class SizeCheck {
   cv::Size size_;
 };
 
+/// Whether a JPEG or PNG has no end: decoders fill what is missing with gray.
+bool is_truncated(const std::vector<uint8_t>& file);
+
 /// Borrowed view of an 8-bit image with one or three channels.
 unisim_image view_of(const cv::Mat& image);
 

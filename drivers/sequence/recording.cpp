@@ -22,6 +22,12 @@ int64_t time_at_rate(int64_t number, double fps) {
   return std::llround(ns);
 }
 
+void check_begin(const std::string& path, int64_t count, int64_t from) {
+  if (from < count) return;
+  throw InputError(path + ": has " + std::to_string(count) + " frames: the range begins at " +
+                   std::to_string(from) + ", begin earlier");
+}
+
 void read_ground_truth(const std::string& path, PoseFormat format, Recording* recording) {
   try {
     const PoseFile file = read_pose_file(path, format);

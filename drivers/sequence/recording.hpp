@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,16 @@ struct Recording {
 /// What the caller asked for.
 struct OpenRequest {
   std::string path;
-  double fps;  ///< 0: not given
+  double fps;           ///< 0: not given
+  std::string channel;  ///< of an LCM log, "": not given
+};
+
+class FrameSource;
+
+/// Positions [from, to) of a sequence.
+struct FrameRange {
+  int64_t from;
+  int64_t to;
 };
 
 /// A format: how it is told apart and how its files are listed.
@@ -45,9 +55,14 @@ struct Format {
   bool (*recognise)(const std::string& path);  ///< may throw InputError
   Recording (*list)(
       const OpenRequest& request);  ///< throws InputError; NULL: not made of image files
+  /// Where it is not; throws InputError.
+  std::unique_ptr<FrameSource> (*open)(const OpenRequest& request, FrameRange range) = nullptr;
 };
 
-extern const Format kTum, kSevenScenes, kEuroc, kKitti, kReplica, kImageList, kVideo;
+extern const Format kTum, kSevenScenes, kEuroc, kKitti, kReplica, kImageList, kLcm, kVideo;
+
+/// @throws InputError when a range begins behind the last of `count` frames
+void check_begin(const std::string& path, int64_t count, int64_t from);
 
 /// Times beyond +-292 years do not fit int64_t nanoseconds.
 inline constexpr long double kMaxTimeNs = 9.2e18L;

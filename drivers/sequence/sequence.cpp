@@ -17,8 +17,8 @@ namespace unisim::sequence {
 namespace {
 
 // In the order of recognition: the formats with the plainest signs first.
-constexpr const Format* kFormats[] = {&kTum,     &kSevenScenes, &kEuroc,    &kKitti,
-                                      &kReplica, &kVideo,       &kImageList};
+constexpr const Format* kFormats[] = {&kTum,     &kSevenScenes, &kEuroc, &kKitti,
+                                      &kReplica, &kLcm,         &kVideo, &kImageList};
 
 const Format& format_by_name(const std::string& name) {
   std::string known;
@@ -74,17 +74,18 @@ std::unique_ptr<FrameSource> open(const std::string& path, const unisim_sequence
   const Format* chosen = name == "auto" ? nullptr : &format_by_name(name);
   check_path(path);
   const Format& format = chosen != nullptr ? *chosen : recognise_format(path);
-  const OpenRequest request = {path, options.fps};
+  const std::string channel = options.channel != nullptr ? options.channel : "";
+  if (!channel.empty() && &format != &kLcm) {
+    throw InputError(path + ": a channel goes with LCM event logs, this is " + format.name);
+  }
+  const OpenRequest request = {path, options.fps, channel};
   FrameRange range = {options.from,
                       options.to > 0 ? options.to : std::numeric_limits<int64_t>::max()};
-  if (format.list == nullptr) return make_video_source(request, range);
+  if (format.open != nullptr) return format.open(request, range);
   Recording recording = format.list(request);
   put_in_time_order(&recording);
   const auto count = static_cast<int64_t>(recording.frames.size());
-  if (range.from >= count) {
-    throw InputError(path + ": has " + std::to_string(count) + " frames: the range begins at " +
-                     std::to_string(range.from) + ", begin earlier");
-  }
+  check_begin(path, count, range.from);
   range.to = std::min(range.to, count);
   return make_image_source(format.name, std::move(recording), range);
 }

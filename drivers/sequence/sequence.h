@@ -9,6 +9,7 @@
  *  | kitti   | odometry root with one sequence, or sequences/NN; times.txt; poses/NN.txt      |
  *  | replica | folder with results/frame*.jpg and traj.txt                                    |
  *  | images  | folder of images, or a pattern with * and ?; in natural order                  |
+ *  | lcm     | LCM event log with bot_core.image_t: GRAY, RGB, BGR, YUYV or MJPEG             |
  *  | video   | any file OpenCV can play                                                       |
  *
  *  A camera does not turn its sensor on the way: the EXIF orientation of the first readable image
@@ -36,12 +37,13 @@ extern "C" {
 /** How to open a sequence. All zero but struct_size is a good default. */
 typedef struct unisim_sequence_options {
   uint32_t struct_size;
-  int32_t reserved;   /**< 0 */
-  const char* format; /**< a format of the table above; NULL or "auto": recognised by content */
-  int64_t from;       /**< first frame, by position among those that are there */
-  int64_t to;         /**< one past the last frame; <= 0: to the end */
-  double fps;         /**< frames per second where the format carries no times; 0: its usual rate
-                           (30; KITTI 10) */
+  int32_t reserved;    /**< 0 */
+  const char* format;  /**< a format of the table above; NULL or "auto": recognised by content */
+  int64_t from;        /**< first frame, by position among those that are there */
+  int64_t to;          /**< one past the last frame; <= 0: to the end */
+  double fps;          /**< frames per second where the format carries no times; 0: its usual rate
+                            (30; KITTI 10) */
+  const char* channel; /**< of an LCM log; NULL or "": UNISIM_IMAGE, or the only one with images */
 } unisim_sequence_options;
 
 /** Open a recorded sequence. The list of files and the ground truth are read here, once; images are

@@ -154,14 +154,14 @@ class VideoSource final : public FrameSource {
 
 bool recognise(const std::string& path) { return is_file(path) && !has_image_ending(path); }
 
-}  // namespace
-
-const Format kVideo = {"video", "a video file", recognise, nullptr};
-
-std::unique_ptr<FrameSource> make_video_source(const OpenRequest& request, FrameRange range) {
+std::unique_ptr<FrameSource> open(const OpenRequest& request, FrameRange range) {
   cv::VideoCapture video = open_video(request.path);
   const SquarePixels square = square_pixels(request.path, video);
   return std::make_unique<VideoSource>(request.path, std::move(video), square, request.fps, range);
 }
+
+}  // namespace
+
+const Format kVideo = {"video", "a video file", recognise, nullptr, open};
 
 }  // namespace unisim::sequence

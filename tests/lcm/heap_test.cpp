@@ -24,7 +24,7 @@ int publish_all(unisim_lcm_publisher* publisher, int k, const std::vector<unisim
   status.struct_size = sizeof status;
   status.stage_count = 1;
   status.stages = &stage;
-  int refused = unisim_lcm_publish_pose(publisher, k, &points.T_world_submap);
+  int refused = unisim_lcm_publish_pose(publisher, k, &points.T_world_points);
   refused += unisim_lcm_publish_keyframe(publisher, poses.data(), 0, nullptr);
   refused += unisim_lcm_publish_correction(publisher, &correction);
   refused += unisim_lcm_publish_status(publisher, &status);
@@ -54,13 +54,13 @@ TEST_CASE("a hundred messages of each kind over the network make no heap call") 
   const std::vector<float> xyz(3 * 1000);
   unisim_lcm_points points{};
   points.struct_size = sizeof points;
-  points.T_world_submap = some_pose();
+  points.T_world_points = some_pose();
   points.xyz = xyz.data();
   points.count = 1000;
   const std::vector<uint8_t> pixels(640 * 480);
   const unisim_image image = {pixels.data(), 640, 480, 640, UNISIM_PIXEL_GRAY8};
   // The thread that sends takes memory of its own when it starts.
-  REQUIRE(unisim_lcm_publish_pose(made.publisher.get(), 0, &points.T_world_submap) ==
+  REQUIRE(unisim_lcm_publish_pose(made.publisher.get(), 0, &points.T_world_points) ==
           UNISIM_LCM_QUEUED);
   while (gone(made.publisher.get()) < 1) usleep(1000);
   const int64_t before = unisim::test::heap_calls();

@@ -211,7 +211,7 @@ TEST_CASE("trajectories and points go in messages under 60 kB") {
   for (int k = 0; k < 3 * 10000; ++k) xyz.push_back(static_cast<float>(k));
   unisim_lcm_points points{};
   points.struct_size = sizeof points;
-  points.T_world_submap = some_pose();
+  points.T_world_points = some_pose();
   points.xyz = xyz.data();
   points.count = 10000;
   REQUIRE(unisim_lcm_publish_points(out.get(), &points) == UNISIM_LCM_QUEUED);

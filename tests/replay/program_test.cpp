@@ -61,16 +61,6 @@ TEST_CASE("a number on the command line is decimal and in its range") {
   CHECK(has(run_replay({"--print-config", "--stride", "010"}).out, "stride = 10\n"));
 }
 
-TEST_CASE("what is not built yet is refused, not ignored") {
-  const TempFolder folder;
-  const std::string out = folder / "out";
-  const std::vector<std::vector<std::string>> wanted = {{"--lcm", "udpm://"}, {"--format", "lcm"}};
-  for (const std::vector<std::string>& option : wanted) {
-    require_failure(run_replay(with({"somewhere", "--out", out}, option)), 2, "not built yet");
-  }
-  CHECK_FALSE(fs::exists(out));
-}
-
 TEST_CASE("input that is not a sequence is one line and exit code 3") {
   const TempFolder folder;
   const std::string out = folder / "out";

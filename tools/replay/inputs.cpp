@@ -73,6 +73,7 @@ SourcePtr open_sequence(const Options& options, std::vector<std::string>* notes)
   wanted.format = options.format.c_str();
   wanted.from = options.from;
   wanted.to = options.to;
+  wanted.channel = options.lcm_image_channel.c_str();
   char message[kLine] = "";
   SourcePtr source(
       unisim_sequence_open(options.sequence.c_str(), &wanted, message, sizeof message));

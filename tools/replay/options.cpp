@@ -18,10 +18,10 @@ using tools::Range;
 // Three years of video.
 constexpr int64_t kMostFrames = 10000000000;
 
-void add_input_options(CLI::App* app, Options* options, bool* realtime, std::string* lcm) {
-  app->add_option("sequence", options->sequence, "folder, image glob or video file");
+void add_input_options(CLI::App* app, Options* options, bool* realtime) {
+  app->add_option("sequence", options->sequence, "folder, image glob, video file or LCM event log");
   app->add_option("--format", options->format,
-                  "auto, tum, 7scenes, euroc, kitti, replica, images or video")
+                  "auto, tum, 7scenes, euroc, kitti, replica, images, video or lcm")
       ->check(CLI::IsMember(
           {"auto", "tum", "7scenes", "euroc", "kitti", "replica", "images", "video", "lcm"}));
   app->add_option("--from", options->from, "first frame")
@@ -33,15 +33,8 @@ void add_input_options(CLI::App* app, Options* options, bool* realtime, std::str
   app->add_flag("--list-frames", options->list_frames,
                 "print the frames as JSON lines (--format, --from, --to, --stride), end");
   app->add_flag("--realtime", *realtime, "keep to the recorded times, drop late frames");
-  app->add_option("--lcm", *lcm)->group("");
-}
-
-void refuse_not_built(const Options& options, const std::string& lcm) {
-  const auto refuse = [](bool asked, const char* what) {
-    if (asked) throw tools::Failure(tools::kExitUsage, std::string(what) + ": not built yet");
-  };
-  refuse(!lcm.empty(), "--lcm");
-  refuse(options.format == "lcm", "--format lcm");
+  app->add_option("--lcm-image-channel", options->lcm_image_channel,
+                  "channel of an LCM event log to read (default: UNISIM_IMAGE, or the only one)");
 }
 
 void check(const Options& options) {
@@ -54,6 +47,7 @@ void check(const Options& options) {
   require(!options.list_frames || options.out.empty(),
           "--list-frames prints and writes no results: leave --out away");
   require(options.to < 0 || options.to > options.from, "--to must be greater than --from");
+  require(!options.lcm || !options.list_frames, "--lcm goes with a run, not with --list-frames");
 }
 
 }  // namespace
@@ -64,11 +58,9 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   app.set_version_flag("--version", version_text());
   Options options;
   bool realtime = false;
-  std::string lcm;
-  add_input_options(&app, &options, &realtime, &lcm);
+  add_input_options(&app, &options, &realtime);
   RunOptions run_options(&app, &options);
   if (!tools::parse(&app, argc, argv)) return std::nullopt;
-  refuse_not_built(options, lcm);
   run_options.apply();
   if (realtime) options.settings.pipeline.realtime = true;
   if (!options.print_config) {

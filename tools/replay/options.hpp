@@ -26,7 +26,11 @@ struct Options {
   std::string model_window;   ///< the same where one model serves both
   std::string model_encoder;  ///< "": beside the models that need one
   std::string provider = "cpu";
-  std::string onnx_runtime;  ///< library to open, "" to search
+  std::string onnx_runtime;        ///< library to open, "" to search
+  std::optional<std::string> lcm;  ///< URL to publish on, "" for the usual one
+  std::string lcm_image_channel;   ///< of an LCM event log that is read, "" for the usual one
+  bool lcm_images = false;         ///< publish the frames too
+  int32_t lcm_points = 0;          ///< publish so many points of each submap too
   int64_t from = 0;
   int64_t to = -1;  ///< -1: to the end
   bool force = false;

@@ -15,6 +15,7 @@
 #include "tools/common/output.hpp"
 #include "tools/replay/cloud.hpp"
 #include "tools/replay/inputs.hpp"
+#include "tools/replay/lcm_output.hpp"
 #include "tools/replay/live_trajectory.hpp"
 #include "tools/replay/output_folder.hpp"
 #include "tools/replay/page.hpp"
@@ -114,6 +115,7 @@ struct RunState {
   const eval::Trajectory& truth;
   const std::string& format;
   std::string recorder_problem;
+  std::string publishing_problem;
 };
 
 void say_problem(const Options& options, const std::string& line) {
@@ -175,7 +177,7 @@ void print_result(const Run& run, const OutputFolder& folder) {
 
 /// Prints what went wrong on the way; the first reason decides the exit code. A score that cannot
 /// be had is none: the map is there.
-int conclude(const Run& run, const OutputFolder& folder, const std::string& recording) {
+int conclude(const Run& run, const OutputFolder& folder, const RunState& state) {
   int code = exit_code(run.result.outcome, run.options);
   const auto add = [&](int reason, const std::string& line) {
     if (line.empty()) return;
@@ -186,7 +188,8 @@ int conclude(const Run& run, const OutputFolder& folder, const std::string& reco
     say_problem(run.options, run.result.message + "; what was known is written");
   }
   for (const std::string& line : folder.failures()) add(tools::kExitLimit, line);
-  add(tools::kExitLimit, recording);
+  add(tools::kExitLimit, state.recorder_problem);
+  add(tools::kExitLimit, state.publishing_problem);
   if (!run.scores.problem.empty()) say_problem(run.options, run.scores.problem);
   return code;
 }
@@ -218,7 +221,7 @@ class Results {
     write_map(run, *cloud_, &folder_);
     write_page(run, messages, &folder_);
     print_result(run, folder_);
-    return conclude(run, folder_, state.recorder_problem);
+    return conclude(run, folder_, state);
   }
 
  private:
@@ -240,9 +243,12 @@ unisim_config session_config(const Options& options, const Settings& settings,
 }
 
 /// The end of a run that writes nothing.
-int conclude(const pipeline::Result& result, const Options& options) {
+int conclude(const pipeline::Result& result, const Options& options,
+             const std::string& publishing) {
   if (!result.message.empty()) say_problem(options, result.message);
-  return exit_code(result.outcome, options);
+  if (!publishing.empty()) say_problem(options, publishing);
+  const int code = exit_code(result.outcome, options);
+  return code == tools::kExitDone && !publishing.empty() ? tools::kExitLimit : code;
 }
 
 }  // namespace
@@ -250,6 +256,7 @@ int conclude(const pipeline::Result& result, const Options& options) {
 int run(const Options& options, const Surroundings& around, const std::atomic<bool>& stop) {
   std::optional<Results> results;
   if (!options.out.empty()) results.emplace(options);
+  LcmOutput lcm(options);
   Input input = around.open();
   const std::string format = input.source->format;
   Settings settings = options.settings;
@@ -265,19 +272,24 @@ int run(const Options& options, const Surroundings& around, const std::atomic<bo
     listeners.insert(listeners.end(), own.begin(), own.end());
   }
   listeners.insert(listeners.end(), input.listeners.begin(), input.listeners.end());
+  if (lcm.listener() != nullptr) listeners.push_back(lcm.listener());
   pipeline::Options how = options.settings.pipeline;
-  how.decode_images = results.has_value();  // the map has colours, also with no need of images
+  // The map has colours, also with no need of images.
+  how.decode_images = results.has_value() || options.lcm_images;
   pipeline::Pipeline pipeline(how, input.source.get(), predictor.get(), config, listeners, &stop,
                               tools::heap_counter());
   prepare(&pipeline);
+  lcm.attach(pipeline);
   const pipeline::Result& result = pipeline.run();
   progress.finish();
+  lcm.finish();
   if (around.ended) around.ended(input.source.get());
   // Its last call may still come back.
   if (result.source_held) static_cast<void>(input.source.release());
-  if (!results) return conclude(result, options);
-  const RunState state = {options,     result, pipeline.session(),
-                          input.truth, format, recorder_problem(options, predictor.get())};
+  if (!results) return conclude(result, options, lcm.problem());
+  const RunState state = {options,      result, pipeline.session(),
+                          input.truth,  format, recorder_problem(options, predictor.get()),
+                          lcm.problem()};
   return results->write(state, progress.messages());
 }
 

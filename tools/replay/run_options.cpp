@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "drivers/lcm/problem.h"
 #include "tools/common/command_line.hpp"
 #include "tools/common/failure.hpp"
 #include "tools/replay/settings_fields.hpp"
@@ -15,6 +16,9 @@ namespace {
 
 using tools::in_range;
 using tools::Range;
+
+// 12 MB a submap.
+constexpr int64_t kMostPoints = 1000000;
 
 const std::map<std::string, uint32_t> kFactors = {
     {"e2v", UNISIM_FACTOR_TWO_VIEW},
@@ -33,6 +37,7 @@ RunOptions::RunOptions(CLI::App* app, Options* options) : options_(options) {
   add_method_options(app);
   add_model_options(app);
   add_output_options(app);
+  add_lcm_options(app);
 }
 
 void RunOptions::add_camera_options(CLI::App* app) {
@@ -99,6 +104,17 @@ void RunOptions::add_output_options(CLI::App* app) {
   app->add_flag("--json", options_->json, "progress and result as JSON lines on stdout");
 }
 
+void RunOptions::add_lcm_options(CLI::App* app) {
+  const char* const group = "LCM (drivers/lcm/README.md)";
+  app->add_option("--lcm", options_->lcm,
+                  "also publish on this URL, such as " UNISIM_LCM_DEFAULT_URL)
+      ->group(group);
+  app->add_flag("--lcm-images", options_->lcm_images, "publish the frames too")->group(group);
+  app->add_option("--lcm-points", options_->lcm_points, "publish so many points of each submap too")
+      ->transform(in_range(Range::whole(0, kMostPoints)))
+      ->group(group);
+}
+
 void RunOptions::apply() {
   Settings* const settings = &options_->settings;
   if (!config_.empty()) load_settings(config_, settings);
@@ -146,6 +162,8 @@ void RunOptions::check() const {
   require(onnx || (options.model_pair.empty() && options.model_window.empty() &&
                    options.model_encoder.empty()),
           "--model, --model-2v, --model-mv and --model-encoder go with --predictor onnx");
+  require(options.lcm || (!options.lcm_images && options.lcm_points == 0),
+          "--lcm-images and --lcm-points go with --lcm URL");
   check_together(options.settings);
 }
 

@@ -31,6 +31,7 @@ class RunOptions {
   void add_camera_options(CLI::App* app);
   void add_model_options(CLI::App* app);
   void add_output_options(CLI::App* app);
+  void add_lcm_options(CLI::App* app);
   void take_models();
 
   Options* options_;

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+// A listener that tells a run of the pipeline over LCM.
+#include "drivers/lcm/session_publisher.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include "drivers/lcm/submap_points.hpp"
+#include "drivers/pipeline/similarity.hpp"
+
+namespace unisim::lcm {
+namespace {
+
+constexpr std::chrono::seconds kStatusPeriod(1);
+// Between the messages of the last trajectory: receivers with usual buffers hold four.
+constexpr std::chrono::milliseconds kChunkPause(5);
+
+}  // namespace
+
+SessionPublisher::SessionPublisher(unisim_lcm_publisher* publisher,
+                                   const SessionPublisherOptions& options)
+    : publisher_(publisher), options_(options), book_(options.folder), retired_(options.folder) {
+  poses_.reserve(UNISIM_LCM_CHUNK_POSES);
+}
+
+/// Latest pose of a keyframe, kept by the session or not. false: it has none.
+bool SessionPublisher::read_pose(int32_t keyframe, unisim_pose* pose) const {
+  *pose = {};
+  pose->struct_size = sizeof *pose;
+  const unisim_session* session = pipeline_->session();
+  const unisim_status status = unisim_get_pose(session, keyframe, pose);
+  if (status != UNISIM_ERR_RETIRED) return status == UNISIM_OK;
+  *pose = retired_.get(keyframe);
+  return pose->struct_size > 0 && book_.find(session, keyframe, &pose->T_world_kf);
+}
+
+bool SessionPublisher::read_info(unisim_session_info* info) const {
+  *info = {};
+  info->struct_size = sizeof *info;
+  return unisim_get_info(pipeline_->session(), info) == UNISIM_OK;
+}
+
+void SessionPublisher::on_keyframe(int32_t /*id*/, const unisim_frame& frame) {
+  image_width_ = frame.image.width;
+  image_height_ = frame.image.height;
+}
+
+void SessionPublisher::on_frame(const unisim_frame& frame) {
+  if (options_.images && frame.image.data != nullptr) {
+    unisim_lcm_publish_image(publisher_, frame.timestamp_ns, &frame.image);
+  }
+}
+
+void SessionPublisher::on_live_pose(const pipeline::LivePose& pose) {
+  newest_ns_ = pose.timestamp_ns;
+  unisim_lcm_publish_pose(publisher_, pose.timestamp_ns, &pose.T_world_cam);
+  unisim_pose keyframe{};
+  if (pose.keyframe_id < 0 || !read_pose(pose.keyframe_id, &keyframe)) return;
+  live_ = keyframe;
+  unisim_lcm_publish_keyframe(publisher_, &keyframe, revision_, nullptr);
+}
+
+void SessionPublisher::on_window(int32_t submap_id, const unisim_window_prediction& window) {
+  if (window.count <= 0) return;
+  last_windowed_ = std::max(last_windowed_, window.keyframe_ids[window.count - 1]);
+  if (options_.points_per_submap > 0) send_points(submap_id, window);
+}
+
+void SessionPublisher::send_points(int32_t submap_id, const unisim_window_prediction& window) {
+  unisim_submap_info submap{};
+  submap.struct_size = sizeof submap;
+  unisim_pose anchor{};
+  if (unisim_get_submap(pipeline_->session(), submap_id, &submap) != UNISIM_OK ||
+      !read_pose(window.keyframe_ids[window.count / 2], &anchor)) {
+    return;
+  }
+  sample_points(window, image_width_, image_height_, options_.points_per_submap, &xyz_);
+  if (xyz_.empty()) return;
+  unisim_lcm_points points{};
+  points.struct_size = sizeof points;
+  points.submap_id = submap_id;
+  points.timestamp_ns = anchor.timestamp_ns;
+  points.map_revision = revision_;
+  points.segment = anchor.segment;
+  points.T_world_points = anchor.T_world_kf;
+  points.T_world_points.s = submap.T_world_submap.s;
+  points.xyz = xyz_.data();
+  points.count = static_cast<int32_t>(xyz_.size() / 3);
+  points.keyframe_id = anchor.keyframe_id;
+  unisim_lcm_publish_points(publisher_, &points);
+}
+
+void SessionPublisher::on_optimized(const unisim_report& report) {
+  unisim_session_info info{};
+  if (!read_info(&info)) return;
+  if (report.map_revision > revision_) send_correction(report);
+  send_optimized_keyframes(report.map_revision);
+  if (info.loops <= loops_) return;
+  loops_ = info.loops;
+  // What has left the window moves with the oldest that it kept.
+  const bool all = report.first_changed <= info.first_keyframe;
+  begin_trajectory(all ? 0 : report.first_changed);
+}
+
+/// The jump from where listeners have the newest keyframe to where it is now: small steps that the
+/// session did not count are in it.
+void SessionPublisher::send_correction(const unisim_report& report) {
+  revision_ = report.map_revision;
+  unisim_pose now{};
+  if (live_.struct_size == 0 || !read_pose(live_.keyframe_id, &now)) return;
+  unisim_lcm_correction correction{};
+  correction.struct_size = sizeof correction;
+  correction.map_revision = report.map_revision;
+  correction.timestamp_ns = newest_ns_;
+  correction.keyframe_id = now.keyframe_id;
+  correction.segment = now.segment;
+  correction.first_changed = report.first_changed;
+  correction.last_changed = report.last_changed;
+  correction.T_new_old = pipeline::compose(now.T_world_kf, pipeline::inverse(live_.T_world_kf));
+  unisim_lcm_publish_correction(publisher_, &correction);
+  live_ = now;
+}
+
+/// Each keyframe once when a submap has it: only then its covariance says something.
+void SessionPublisher::send_optimized_keyframes(int32_t map_revision) {
+  for (; next_covered_ <= last_windowed_; ++next_covered_) {
+    unisim_pose pose{};
+    if (!read_pose(next_covered_, &pose) || pose.confidence == 0) continue;
+    double covariance[49];
+    const bool known =
+        options_.covariance &&
+        unisim_get_covariance(pipeline_->session(), next_covered_, covariance) == UNISIM_OK;
+    unisim_lcm_publish_keyframe(publisher_, &pose, map_revision, known ? covariance : nullptr);
+  }
+}
+
+void SessionPublisher::on_retired(const unisim_retired& retired, const unisim_pose* pose) {
+  book_.take(retired);
+  if (pose == nullptr) return;
+  unisim_pose kept = *pose;
+  kept.segment = retired.segment;
+  retired_.put(retired.keyframe_id, kept);
+}
+
+void SessionPublisher::begin_trajectory(int32_t first) {
+  const int32_t end = live_.struct_size == 0 ? 0 : live_.keyframe_id + 1;
+  if (trajectory_.next < trajectory_.end) first = std::min(first, trajectory_.next);
+  trajectory_ = {};
+  if (first >= end) return;
+  trajectory_.next = std::max(first, 0);
+  trajectory_.end = end;
+  const int32_t count = end - trajectory_.next;
+  trajectory_.chunks = (count + UNISIM_LCM_CHUNK_POSES - 1) / UNISIM_LCM_CHUNK_POSES;
+}
+
+void SessionPublisher::send_trajectory_chunk() {
+  if (trajectory_.next >= trajectory_.end) return;
+  const int32_t end = std::min(trajectory_.next + UNISIM_LCM_CHUNK_POSES, trajectory_.end);
+  poses_.clear();
+  for (int32_t id = trajectory_.next; id < end; ++id) {
+    unisim_pose pose{};
+    if (read_pose(id, &pose) && pose.confidence > 0) poses_.push_back(pose);
+  }
+  unisim_lcm_publish_trajectory(publisher_, newest_ns_, revision_, poses_.data(),
+                                static_cast<int32_t>(poses_.size()), trajectory_.chunk,
+                                trajectory_.chunks);
+  trajectory_.next = end;
+  ++trajectory_.chunk;
+}
+
+void SessionPublisher::on_progress(const pipeline::Progress& progress) {
+  int32_t first = 0;
+  if (unisim_lcm_next_request(publisher_, &first) != 0) begin_trajectory(first);
+  send_trajectory_chunk();
+  const bool changed =
+      progress.state != told_state_ || (live_.struct_size != 0 && live_.segment != told_segment_);
+  if (changed || Clock::now() >= next_status_) send_status(progress);
+}
+
+void SessionPublisher::send_status(const pipeline::Progress& progress) {
+  unisim_session_info info{};
+  if (!read_info(&info)) return;
+  unisim_pose newest{};
+  const bool posed = info.last_posed >= 0 && read_pose(info.last_posed, &newest);
+  fill_stages();
+  unisim_lcm_status status{};
+  status.struct_size = sizeof status;
+  status.state = progress.state;
+  status.timestamp_ns = progress.newest_ns;
+  status.confidence = posed ? newest.confidence : 0;
+  status.keyframe_id = posed ? newest.keyframe_id : -1;
+  status.segment = posed ? newest.segment : -1;
+  status.map_revision = info.map_revision;
+  status.frames = progress.frames;
+  status.frames_bad = progress.frames_bad;
+  status.frames_dropped = progress.frames_dropped;
+  status.queue_depth = progress.frames_waiting;
+  status.keyframes = info.keyframes;
+  status.submaps = info.submaps;
+  status.loops = info.loops;
+  status.lost_events = info.lost_events;
+  status.stage_count = static_cast<int32_t>(stages_.size());
+  status.stages = stages_.data();
+  unisim_lcm_publish_status(publisher_, &status);
+  told_state_ = progress.state;
+  told_segment_ = live_.struct_size != 0 ? live_.segment : -1;
+  next_status_ = Clock::now() + kStatusPeriod;
+}
+
+/// Stages that have run, with the names of summary.json.
+void SessionPublisher::fill_stages() {
+  const pipeline::StageTimes& times = pipeline_->result().times;
+  const auto add = [this](const char* name, const pipeline::LatencyHistogram& stage) {
+    if (stage.count() == 0) return;
+    stages_.push_back(
+        {name, stage.count(), stage.percentile_ms(0.5), stage.percentile_ms(0.95), stage.max_ms()});
+  };
+  stages_.clear();
+  add("decode", times.decode);
+  add("observe", times.observe);
+  add("keyframe", times.keyframe);
+  add("two_view", times.two_view);
+  add("multi_view", times.multi_view);
+  add("depth_ratio", times.depth_ratio);
+  add("graph", times.graph);
+  add("optimize", times.optimize);
+  add("track_total", times.track_total);
+}
+
+void SessionPublisher::finish() {
+  if (pipeline_ == nullptr || pipeline_->session() == nullptr) return;
+  begin_trajectory(0);
+  while (trajectory_.next < trajectory_.end) {
+    send_trajectory_chunk();
+    std::this_thread::sleep_for(kChunkPause);
+  }
+  send_status(pipeline_->result().progress);
+}
+
+}  // namespace unisim::lcm
