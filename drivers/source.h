@@ -35,6 +35,10 @@ typedef struct unisim_stamped_pose {
 #define UNISIM_FRAME_FAILED \
   3 /**< the source is of no more use: message() says what, where, what to do */
 
+/** For next_frame(): as 1, but a frame whose pixels cannot be had is UNISIM_FRAME_OK with
+ * image.data NULL, and message() says why. A source may take it as 1. */
+#define UNISIM_DECODE_IF_READABLE 2
+
 /** A source. Free with destroy(source). */
 typedef struct unisim_source unisim_source;
 struct unisim_source {
@@ -46,7 +50,9 @@ struct unisim_source {
   /** Frames in all, -1 if not known before the end. */
   int64_t (*frame_count)(unisim_source* source);
 
-  /** Next frame. @param decode 0: leave image.data NULL and save the time @return UNISIM_FRAME_* */
+  /** Next frame.
+   *  @param decode 1; 0: leave image.data NULL and save the time; UNISIM_DECODE_IF_READABLE
+   *  @return UNISIM_FRAME_* */
   int (*next_frame)(unisim_source* source, int decode, unisim_frame* frame);
 
   /** Make a next_frame() that waits come back soon, and all later ones, with UNISIM_FRAME_END: the
@@ -61,7 +67,7 @@ struct unisim_source {
   /** Where the ground truth was read, "" if none. */
   const char* (*ground_truth_path)(unisim_source* source);
 
-  /** One line about the last UNISIM_FRAME_BAD or _FAILED. */
+  /** One line about the last UNISIM_FRAME_BAD or _FAILED, or about pixels that are missing. */
   const char* (*message)(unisim_source* source);
 
   void (*destroy)(unisim_source* source);

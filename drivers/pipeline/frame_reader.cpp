@@ -39,7 +39,7 @@ std::string seconds_text(milliseconds time) {
 
 class FrameReader::Shared {
  public:
-  Shared(unisim_source* source, int depth, bool decode, Queue queue)
+  Shared(unisim_source* source, int depth, int decode, Queue queue)
       : source_(source),
         decode_(decode),
         newest_wins_(queue == Queue::kNewest),
@@ -71,10 +71,11 @@ class FrameReader::Shared {
   int read_one(size_t at);
   void fill(Slot* slot);
   void check(Slot* slot);
+  int check_shape(const std::string& where, Slot* slot);
   void take_pixels(Slot* slot);
 
   unisim_source* source_;
-  bool decode_;
+  int decode_;
   bool newest_wins_;
   size_t depth_;
   std::vector<Slot> slots_;  // in the caller's hands, queued, being filled
@@ -88,7 +89,7 @@ class FrameReader::Shared {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   LatencyHistogram decode_times_;
-  unisim_image first_{};  // shape every image must have
+  unisim_image first_{};  // shape every image must have; format 0: no image yet
   int64_t last_timestamp_ns_ = 0;
   bool any_frame_ = false;
 };
@@ -177,7 +178,7 @@ void FrameReader::Shared::fill(Slot* slot) {
   slot->item.message.clear();
   {
     const ScopedLatency timer(decode_times_);
-    slot->item.status = source_->next_frame(source_, decode_ ? 1 : 0, &slot->item.frame);
+    slot->item.status = source_->next_frame(source_, decode_, &slot->item.frame);
   }
   if (slot->item.status == UNISIM_FRAME_OK)
     check(slot);
@@ -193,18 +194,31 @@ void FrameReader::Shared::check(Slot* slot) {
     slot->item.message = where + ": time stamp is not after the one before; frame skipped";
     return;
   }
-  if (decode_) {
-    if (any_frame_ && !same_shape(first_, frame.image)) {
-      slot->item.status = UNISIM_FRAME_BAD;
-      slot->item.message = where + ": image is " + size_text(frame.image) + ", the first one was " +
-                           size_text(first_) + "; frame skipped";
-      return;
-    }
-    if (!any_frame_) first_ = frame.image;
-    take_pixels(slot);
+  if (decode_ != 0) {
+    slot->item.status = check_shape(where, slot);
+    if (slot->item.status != UNISIM_FRAME_OK) return;
   }
   any_frame_ = true;
   last_timestamp_ns_ = frame.timestamp_ns;
+}
+
+/// Every image has the shape of the first. One that has not is no image of the sequence.
+int FrameReader::Shared::check_shape(const std::string& where, Slot* slot) {
+  unisim_image& image = slot->item.frame.image;
+  const bool if_readable = decode_ == UNISIM_DECODE_IF_READABLE;
+  if (image.data == nullptr && if_readable) {
+    slot->item.message = source_->message(source_);
+    return UNISIM_FRAME_OK;
+  }
+  if (first_.format == 0) first_ = image;
+  if (same_shape(first_, image)) {
+    take_pixels(slot);
+    return UNISIM_FRAME_OK;
+  }
+  slot->item.message = where + ": image is " + size_text(image) + ", the first one was " +
+                       size_text(first_) + (if_readable ? "" : "; frame skipped");
+  image = {};
+  return if_readable ? UNISIM_FRAME_OK : UNISIM_FRAME_BAD;
 }
 
 void FrameReader::Shared::take_pixels(Slot* slot) {
@@ -220,7 +234,7 @@ void FrameReader::Shared::take_pixels(Slot* slot) {
   image.stride = static_cast<int32_t>(row);
 }
 
-FrameReader::FrameReader(unisim_source* source, int depth, bool decode, Queue queue)
+FrameReader::FrameReader(unisim_source* source, int depth, int decode, Queue queue)
     : shared_(std::make_shared<Shared>(source, depth, decode, queue)),
       thread_([shared = shared_] { shared->read_loop(); }) {}
 

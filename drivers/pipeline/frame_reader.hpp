@@ -27,8 +27,8 @@ class FrameReader {
   /// @param source borrowed, used by the reader's thread only; until destruction, or for ever where
   ///               holds_source() says so then
   /// @param depth  frames read ahead, >= 1
-  /// @param decode false: frames come without pixels
-  FrameReader(unisim_source* source, int depth, bool decode, Queue queue = Queue::kWaits);
+  /// @param decode as of unisim_source::next_frame()
+  FrameReader(unisim_source* source, int depth, int decode, Queue queue = Queue::kWaits);
   ~FrameReader();
   FrameReader(const FrameReader&) = delete;
   FrameReader& operator=(const FrameReader&) = delete;
@@ -37,8 +37,8 @@ class FrameReader {
   struct Item {
     int status = UNISIM_FRAME_END;  ///< UNISIM_FRAME_*
     unisim_frame frame{};           ///< valid until the next call of next()
-    std::string message;            ///< for UNISIM_FRAME_BAD and _FAILED
-    int64_t made_way = 0;           ///< frames given up for this one, of Queue::kNewest
+    std::string message;   ///< for UNISIM_FRAME_BAD and _FAILED; with _OK why pixels are missing
+    int64_t made_way = 0;  ///< frames given up for this one, of Queue::kNewest
   };
 
   /// Next answer, waiting for it. After END or FAILED the same answer again.

@@ -22,6 +22,7 @@ void Messages::say(const std::string& line) {
 void Messages::tell_counts() {
   constexpr std::array<const char*, kKinds> kNames = {"unreadable frames",
                                                       "frames of no use to the predictor",
+                                                      "keyframes without an image",
                                                       "rejected pairs",
                                                       "rejected windows",
                                                       "windows taken in part",

@@ -15,6 +15,7 @@ namespace unisim::pipeline {
 enum class MessageKind {
   kBadFrame,
   kUselessFrame,
+  kWithoutPixels,
   kPairRejected,
   kWindowRejected,
   kWindowReduced,
@@ -44,7 +45,7 @@ class Messages {
 
  private:
   static constexpr int64_t kTold = 5;
-  static constexpr size_t kKinds = 8;
+  static constexpr size_t kKinds = 9;
 
   const std::vector<Listener*>& listeners_;
   std::array<int64_t, kKinds> counts_{};

@@ -38,7 +38,8 @@ class Pipeline::Impl {
  private:
   void read_all();
   bool take(const FrameReader::Item& item);
-  bool track(const unisim_frame& frame);
+  bool track(const FrameReader::Item& item);
+  void pass_over(const FrameReader::Item& item);
   bool take_keyframe(const unisim_frame& frame);
   void pose_between(const unisim_frame& frame);
   void give_out_live();
@@ -121,7 +122,8 @@ const Result& Pipeline::Impl::run() {
 }
 
 void Pipeline::Impl::read_all() {
-  const bool decode = predictor_->needs_images != 0 || options_.decode_images;
+  int decode = options_.decode_images ? UNISIM_DECODE_IF_READABLE : 0;
+  if (predictor_->needs_images != 0) decode = 1;
   const auto queue = options_.live ? FrameReader::Queue::kNewest : FrameReader::Queue::kWaits;
   FrameReader reader(source_, options_.live ? 1 : std::max(options_.queue_frames, 1), decode,
                      queue);
@@ -157,15 +159,28 @@ bool Pipeline::Impl::take(const FrameReader::Item& item) {
     ++result_.progress.frames_dropped;
     return true;
   }
-  ++result_.progress.frames;
   result_.progress.newest_ns = item.frame.timestamp_ns;
-  const bool goes_on = track(item.frame);
+  const bool goes_on = track(item);
   for (Listener* listener : listeners_) listener->on_frame(item.frame);
   tell_progress();
   return goes_on;
 }
 
-bool Pipeline::Impl::track(const unisim_frame& frame) {
+/// A frame of no use to the predictor, and why. Where its pixels are missing, it is that.
+void Pipeline::Impl::pass_over(const FrameReader::Item& item) {
+  if (item.message.empty()) {
+    messages_.say(MessageKind::kUselessFrame, "frame " + std::to_string(item.frame.index) + ": " +
+                                                  predictor_->message(predictor_));
+    return;
+  }
+  --result_.progress.frames;
+  ++result_.progress.frames_bad;
+  messages_.say(MessageKind::kBadFrame, item.message + ": skipped");
+}
+
+bool Pipeline::Impl::track(const FrameReader::Item& item) {
+  const unisim_frame& frame = item.frame;
+  ++result_.progress.frames;
   const auto start = std::chrono::steady_clock::now();
   unisim_motion motion = {-1.0, -1.0, 0};
   int answer = UNISIM_PREDICTION_OK;
@@ -175,8 +190,7 @@ bool Pipeline::Impl::track(const unisim_frame& frame) {
   }
   if (answer == UNISIM_PREDICTION_FAILED) return went_well(Step::kPredictorFailed);
   if (answer != UNISIM_PREDICTION_OK) {
-    messages_.say(MessageKind::kUselessFrame,
-                  "frame " + std::to_string(frame.index) + ": " + predictor_->message(predictor_));
+    pass_over(item);
     return true;
   }
   // Frames given up for want of time do not count: a replay of those that were tracked chooses the
@@ -187,6 +201,7 @@ bool Pipeline::Impl::track(const unisim_frame& frame) {
     if (options_.every_frame) pose_between(frame);
     return true;
   }
+  if (!item.message.empty()) messages_.say(MessageKind::kWithoutPixels, item.message);
   if (!take_keyframe(frame)) return false;
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
   result_.times.track_total.add_ms(spent.count());

@@ -27,7 +27,8 @@ struct Options {
   bool realtime = false;       ///< keep to the recorded times, drop late frames
   bool live = false;           ///< the source is a camera: of frames that wait the newest is taken
   double patience_s = 60.0;    ///< a source that gives nothing for so long has failed; 0: never
-  bool decode_images = false;  ///< decode for the listeners, also where the predictor needs none
+  bool decode_images = false;  ///< decode for the listeners what can be read, also where the
+                               ///< predictor needs no images
 };
 
 enum class Outcome {

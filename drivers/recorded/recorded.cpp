@@ -10,11 +10,11 @@
 #include <new>
 #include <string>
 
-#include "drivers/recorded/origin.hpp"
 #include "drivers/recorded/prediction_codec.hpp"
 #include "drivers/recorded/record_format.hpp"
 #include "drivers/recorded/record_index.hpp"
 #include "drivers/recorded/record_reader.hpp"
+#include "drivers/recorded/recorded_file.hpp"
 
 namespace unisim::recorded {
 namespace {
@@ -322,7 +322,9 @@ void destroy(unisim_predictor* predictor) {
 void fill_table(Recorded* recorded) {
   recorded->struct_size = sizeof(unisim_predictor);
   recorded->name = "recorded";
-  recorded->needs_images = 0;
+  // A file that names neither frames nor keyframes does not tell which images could be read.
+  const RecordIndex& index = recorded->index;
+  recorded->needs_images = index.frames().empty() && index.keyframes().empty() ? 1 : 0;
   recorded->concurrent_windows = recorded->reader.info().concurrent_windows ? 1 : 0;
   recorded->observe = observe;
   recorded->keyframe = keyframe;
@@ -344,9 +346,9 @@ void say(char* message, std::size_t size, const std::string& text) {
 
 }  // namespace
 
-const char* recorded_origin(const unisim_predictor* predictor) {
+const FileInfo* recorded_file(const unisim_predictor* predictor) {
   if (predictor->destroy != destroy) return nullptr;
-  return static_cast<const Recorded*>(predictor)->reader.info().predictor.c_str();
+  return &static_cast<const Recorded*>(predictor)->reader.info();
 }
 
 }  // namespace unisim::recorded

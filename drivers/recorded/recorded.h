@@ -37,10 +37,11 @@ UNISIM_API unisim_predictor* unisim_recorder_create(unisim_predictor* inner, con
  *  @return one line, "" while all is well; valid until destroy() */
 UNISIM_API const char* unisim_recorder_problem(const unisim_predictor* recorder);
 
-/** A predictor that gives the predictions of a file, with no images and no model. Where the file
- *  names its keyframes, observe() sets keyframe_advice to 1 or -1; a pair or window is PENDING
- * until the moment it was answered in the recording and REJECTED when the file does not hold it.
- *  Memory: a few words per record and one record.
+/** A predictor that gives the predictions of a file, with no images and no model. Only where the
+ * file names neither frames nor keyframes needs_images is 1: which images could be read then
+ * decides which are keyframes. Where the file names its keyframes, observe() sets keyframe_advice
+ * to 1 or -1; a pair or window is PENDING until the moment it was answered in the recording and
+ * REJECTED when the file does not hold it. Memory: a few words per record and one record.
  *  @param path         file written by a recorder or by tools/export/unisim_record.py
  *  @param message      one line: the reason on failure; on success a note about a recording that
  * was cut off, else ""; may be NULL
@@ -62,6 +63,13 @@ UNISIM_API int unisim_recorded_windows(const unisim_predictor* recorded, int32_t
  *  @param predictor any predictor
  *  @return "geometric", ...; "" where a file does not say; valid until the predictor's destroy() */
 UNISIM_API const char* unisim_predictor_origin(const unisim_predictor* predictor);
+
+/** Size of the images a recording was made from, which need not be there any more.
+ *  @param predictor any predictor; through a recorder the one inside
+ *  @param[out] width, height pixels
+ *  @return 1; 0 for what is no recording and for a file that does not say */
+int unisim_predictor_recorded_size(const unisim_predictor* predictor, int32_t* width,
+                                   int32_t* height);
 
 #ifdef __cplusplus
 }

@@ -8,11 +8,11 @@
 #include <new>
 #include <string>
 
-#include "drivers/recorded/origin.hpp"
 #include "drivers/recorded/prediction_codec.hpp"
 #include "drivers/recorded/record_format.hpp"
 #include "drivers/recorded/record_writer.hpp"
 #include "drivers/recorded/recorded.h"
+#include "drivers/recorded/recorded_file.hpp"
 
 namespace unisim::recorded {
 namespace {
@@ -65,6 +65,8 @@ constexpr auto kNoData = [](RecordBytes&) {};
 void write_header(Recorder& recorder, int32_t width, int32_t height) {
   if (recorder.header_written) return;
   recorder.header_written = true;
+  // Of a recording that is recorded again the images may be gone.
+  if (width <= 0 || height <= 0) unisim_predictor_recorded_size(recorder.inner, &width, &height);
   recorder.file.image_width = width;
   recorder.file.image_height = height;
   try {
@@ -228,6 +230,12 @@ void fill_table(Recorder* recorder, unisim_predictor* inner) {
   recorder->destroy = destroy;
 }
 
+/// The predictor that recorders, one in another, hand their calls on to.
+const unisim_predictor* innermost(const unisim_predictor* predictor) {
+  while (predictor->destroy == destroy) predictor = static_cast<const Recorder*>(predictor)->inner;
+  return predictor;
+}
+
 }  // namespace
 }  // namespace unisim::recorded
 
@@ -259,10 +267,16 @@ const char* unisim_recorder_problem(const unisim_predictor* recorder) {
 }
 
 const char* unisim_predictor_origin(const unisim_predictor* predictor) {
-  if (predictor->destroy == unisim::recorded::destroy) {
-    return unisim_predictor_origin(
-        static_cast<const unisim::recorded::Recorder*>(predictor)->inner);
-  }
-  const char* recorded = unisim::recorded::recorded_origin(predictor);
-  return recorded != nullptr ? recorded : predictor->name;
+  const unisim_predictor* inside = unisim::recorded::innermost(predictor);
+  const unisim::recorded::FileInfo* file = unisim::recorded::recorded_file(inside);
+  return file != nullptr ? file->predictor.c_str() : inside->name;
+}
+
+int unisim_predictor_recorded_size(const unisim_predictor* predictor, int32_t* width,
+                                   int32_t* height) {
+  const auto* file = unisim::recorded::recorded_file(unisim::recorded::innermost(predictor));
+  if (file == nullptr || file->image_width <= 0 || file->image_height <= 0) return 0;
+  *width = file->image_width;
+  *height = file->image_height;
+  return 1;
 }

@@ -33,9 +33,9 @@ int FrameSource::guarded(Call call) {
 void FrameSource::fill_table() {
   struct_size = sizeof(unisim_source);
   frame_count = [](unisim_source* source) { return self(source)->count(); };
-  next_frame = [](unisim_source* source, int decode_image, unisim_frame* frame) {
+  next_frame = [](unisim_source* source, int decode, unisim_frame* frame) {
     *frame = {};
-    return self(source)->guarded([&] { return self(source)->read(decode_image != 0, frame); });
+    return self(source)->guarded([&] { return self(source)->read(decode, frame); });
   };
   ground_truth = [](unisim_source* source, const unisim_stamped_pose** poses) {
     *poses = self(source)->truth_.poses.data();

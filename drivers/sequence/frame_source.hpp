@@ -31,7 +31,8 @@ class FrameSource : public unisim_source {
               const PixelRule& rule);
 
   virtual int64_t count() const = 0;
-  virtual int read(bool decode_image, unisim_frame* frame) = 0;
+  /// @param decode as of unisim_source::next_frame()
+  virtual int read(int decode, unisim_frame* frame) = 0;
 
   /// Sets message() and gives the status back.
   int answer(int status, std::string text);

@@ -25,20 +25,21 @@ class ImageSource final : public FrameSource {
 
   int64_t count() const override { return range_.to - range_.from; }
 
-  int read(bool decode_image, unisim_frame* frame) override {
+  int read(int decode, unisim_frame* frame) override {
     if (next_ >= range_.to) return UNISIM_FRAME_END;
     frame->index = next_++;
     const FrameEntry& entry = frames_[static_cast<size_t>(frame->index)];
     frame->timestamp_ns = entry.timestamp_ns;
-    return decode_image ? decode_last(frame) : UNISIM_FRAME_OK;
+    return decode != 0 ? decode_last(decode, frame) : UNISIM_FRAME_OK;
   }
 
-  int decode_last(unisim_frame* frame) {
+  int decode_last(int decode, unisim_frame* frame) {
     const std::string& path = frames_[static_cast<size_t>(next_ - 1)].path;
     std::string reason;
     if (decoder_.decode(path, &frame->image, &reason)) return UNISIM_FRAME_OK;
-    return answer(UNISIM_FRAME_BAD,
-                  "frame " + std::to_string(next_ - 1) + ": " + path + ": " + reason + ": skipped");
+    const std::string what = "frame " + std::to_string(next_ - 1) + ": " + path + ": " + reason;
+    if (decode == UNISIM_DECODE_IF_READABLE) return answer(UNISIM_FRAME_OK, what);
+    return answer(UNISIM_FRAME_BAD, what + ": skipped");
   }
 
   std::vector<FrameEntry> frames_;

@@ -78,7 +78,7 @@ class VideoSource final : public FrameSource {
     return std::max<int64_t>(0, std::min(total_, range_.to) - range_.from);
   }
 
-  int read(bool decode_image, unisim_frame* frame) override {
+  int read(int decode, unisim_frame* frame) override {
     if (ended_) return UNISIM_FRAME_END;
     bool grabbed = next_ < range_.to;
     do {
@@ -89,7 +89,7 @@ class VideoSource final : public FrameSource {
     frame->index = next_ - 1;
     frame->timestamp_ns = timestamp_ns_;
     if (!in_time_order(frame->index, timestamp_ns_, path_)) return UNISIM_FRAME_BAD;
-    return decode_image ? decode_last(frame) : UNISIM_FRAME_OK;
+    return decode != 0 ? decode_last(frame) : UNISIM_FRAME_OK;
   }
 
   int decode_last(unisim_frame* frame) {

@@ -103,6 +103,21 @@ TEST_CASE("a listed image that is missing is a bad frame") {
   REQUIRE(answers[1].status == UNISIM_FRAME_OK);
 }
 
+TEST_CASE("where pixels are welcome but not needed a missing image is a frame without them") {
+  const TempFolder folder;
+  write_image(folder, "a.png", 1);
+  folder.write("rgb.txt", "0.1 missing.png\n0.2 a.png\n");
+  const Source source = open_sequence(folder.path());
+  unisim_frame frame{};
+  REQUIRE(source->next_frame(source.get(), UNISIM_DECODE_IF_READABLE, &frame) == UNISIM_FRAME_OK);
+  CHECK(frame.image.data == nullptr);
+  CHECK(frame.index == 0);
+  CHECK(frame.timestamp_ns == 100000000);
+  CHECK(has(source->message(source.get()), "missing.png: cannot be read: No such file"));
+  REQUIRE(source->next_frame(source.get(), UNISIM_DECODE_IF_READABLE, &frame) == UNISIM_FRAME_OK);
+  CHECK(frame.image.data != nullptr);
+}
+
 TEST_CASE("lines of a list that are not 'time name' are counted, the first is told") {
   const TempFolder folder;
   write_image(folder, "a.png", 1);

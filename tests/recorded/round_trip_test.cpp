@@ -3,6 +3,7 @@
 #include <cstring>
 #include <memory>
 
+#include "drivers/recorded/record_writer.hpp"
 #include "drivers/recorded/recorded.h"
 #include "tests/recorded/scripted_predictor.hpp"
 #include "tests/recorded/transcript.hpp"
@@ -79,6 +80,36 @@ TEST_CASE("a recording of a recorded run repeats it and names the first predicto
   const Owned first = open_recorded(folder.file("first.usr"));
   CHECK(std::string(unisim_predictor_origin(again.get())) == "scripted");
   CHECK(run_predictor(again.get()).answers == run_predictor(first.get()).answers);
+}
+
+TEST_CASE("a recording says how large the images were, and hands it on without them") {
+  const TempFolder folder;
+  record_scripted(folder.file("first.usr"));
+  unisim_predictor* inner = open_recorded(folder.file("first.usr")).release();
+  const std::string second = folder.file("second.usr");
+  unisim_predictor* recorder = unisim_recorder_create(inner, second.c_str(), "", nullptr, 0);
+  REQUIRE(recorder != nullptr);
+  unisim_frame frame{};
+  unisim_motion motion{};
+  REQUIRE(recorder->observe(recorder, &frame, &motion) == UNISIM_PREDICTION_OK);
+  recorder->destroy(recorder);
+  int32_t width = 0;
+  int32_t height = 0;
+  CHECK(unisim_predictor_recorded_size(open_recorded(second).get(), &width, &height) == 1);
+  CHECK(width == 640);
+  CHECK(height == 480);
+  const Owned plain(make_scripted_predictor());
+  CHECK(unisim_predictor_recorded_size(plain.get(), &width, &height) == 0);
+}
+
+TEST_CASE("a file that names no frames and no keyframes needs the images to choose them") {
+  const TempFolder folder;
+  {
+    unisim::recorded::RecordWriter writer;
+    REQUIRE(writer.open(folder.file("bare.usr").c_str()));
+    writer.write_header({});
+  }
+  CHECK(open_recorded(folder.file("bare.usr"))->needs_images == 1);
 }
 
 TEST_CASE("a file may be recorded over while it is read") {

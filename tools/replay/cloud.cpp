@@ -104,8 +104,8 @@ void Cloud::on_keyframe(int32_t id, const unisim_frame& frame) {
   while (!views_.empty() && views_.begin()->first <= id - kViewsInMemory) settle(views_.begin());
   View& view = views_[id];
   const unisim_image& image = frame.image;
-  view.width = image.width;
-  view.height = image.height;
+  view.width = image.width > 0 ? image.width : options_.image_width;
+  view.height = image.height > 0 ? image.height : options_.image_height;
   if (image.data == nullptr || image.width <= 0 || image.height <= 0) return;
   view.columns = std::min(kGridWidth, static_cast<int>(image.width));
   view.rows = std::max(1, view.columns * image.height / image.width);

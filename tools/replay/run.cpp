@@ -72,6 +72,7 @@ void prepare(pipeline::Pipeline* pipeline) {
 /// A recording of the geometric predictor is filtered as the predictor itself: the same map.
 CloudOptions cloud_options(const unisim_predictor* predictor) {
   CloudOptions options;
+  unisim_predictor_recorded_size(predictor, &options.image_width, &options.image_height);
   const bool geometric = std::string_view(unisim_predictor_origin(predictor)) == "geometric";
   if (geometric) options.min_confidence = kGeometricConfidence;
   return options;

@@ -50,7 +50,9 @@ void RunOptions::add_camera_options(CLI::App* app) {
 void RunOptions::add_method_options(CLI::App* app) {
   app->add_option("--predictor", options_->predictor, "geometric, onnx or recorded")
       ->check(CLI::IsMember({"geometric", "recorded", "onnx"}));
-  app->add_option("--predictions", options_->predictions, "file written by --record");
+  app->add_option(
+      "--predictions", options_->predictions,
+      "file written by --record; of the images only the colours are taken, they may be missing");
   app->add_option("--record", options_->record, "store every prediction in this file");
   app->add_option("--stride", stride_, "every N-th frame is a keyframe (default: by motion)")
       ->transform(in_range(Range::whole(1, kMostStride)));
