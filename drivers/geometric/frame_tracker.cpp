@@ -28,6 +28,7 @@ void FrameTracker::reserve(size_t count) {
 
 cv::Point2f FrameTracker::run(const PreparedImage& previous, const PreparedImage& current,
                               Tracks* tracks) {
+  patch_error_ = -1;
   if (tracks->size() == 0) return {0.0F, 0.0F};
   next_.resize(tracks->size());
   for (size_t i = 0; i < tracks->size(); ++i) next_[i] = tracks->point[i] + tracks->velocity[i];
@@ -37,6 +38,7 @@ cv::Point2f FrameTracker::run(const PreparedImage& previous, const PreparedImage
   bad_.assign(tracks->size(), 0);
   dx_.clear();
   dy_.clear();
+  size_t followed = 0;
   for (size_t i = 0; i < tracks->size(); ++i) {
     if (!found_[i] || !inside_image(next_[i], current.gray.size(), kTrackMargin)) {
       bad_[i] = 1;
@@ -46,9 +48,12 @@ cv::Point2f FrameTracker::run(const PreparedImage& previous, const PreparedImage
     tracks->point[i] = next_[i];
     dx_.push_back(tracks->velocity[i].x);
     dy_.push_back(tracks->velocity[i].y);
+    error_[followed++] = error_[i];
   }
   tracks->remove(bad_);
   if (dx_.empty()) return {0.0F, 0.0F};
+  error_.resize(followed);
+  patch_error_ = static_cast<double>(median_of(&error_));
   return {median_of(&dx_), median_of(&dy_)};
 }
 

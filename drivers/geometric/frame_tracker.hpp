@@ -17,6 +17,8 @@ class FrameTracker {
   void reserve(size_t count);
   /// @return median displacement of the tracks since the previous frame
   cv::Point2f run(const PreparedImage& previous, const PreparedImage& current, Tracks* tracks);
+  /// Median difference of the patches in the last run, gray values; < 0: nothing was followed.
+  double patch_error() const { return patch_error_; }
 
  private:
   std::vector<cv::Point2f> next_;
@@ -25,6 +27,7 @@ class FrameTracker {
   std::vector<float> error_;
   std::vector<float> dx_;
   std::vector<float> dy_;
+  double patch_error_ = -1;
 };
 
 /// Inside the image by a margin that tracking needs.

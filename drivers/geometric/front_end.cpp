@@ -27,6 +27,8 @@ void FrontEnd::open(const cv::Size& size, int max_tracks, int spacing, const uni
   const auto count = 2 * static_cast<size_t>(max_tracks);
   tracker_.reserve(count);
   retrack_.reserve(count);
+  jump_.reserve(count);
+  before_.reserve(count);
   scratch_.reserve(count);
 }
 
@@ -35,7 +37,11 @@ void FrontEnd::see(const unisim_image& image, Tracks* tracks) {
   while (next == last_ || next == keyframe_) ++next;
   PreparedImage& prepared = images_[static_cast<size_t>(next)];
   preparation_.run(image, &prepared);
-  if (last_ >= 0) flow_ = tracker_.run(current(), prepared, tracks);
+  if (last_ >= 0) {
+    before_ = tracks->point;
+    flow_ = tracker_.run(current(), prepared, tracks);
+    jumped_ = jump_.see(current(), prepared, before_, tracker_.patch_error());
+  }
   last_ = next;
   drop_hidden(tracks);
 }

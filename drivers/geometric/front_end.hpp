@@ -10,6 +10,7 @@
 #include "drivers/geometric/keyframe_retrack.hpp"
 #include "drivers/geometric/prepared_image.hpp"
 #include "drivers/geometric/tracks.hpp"
+#include "drivers/geometric/zoom_jump.hpp"
 
 namespace unisim::geometric {
 
@@ -26,6 +27,8 @@ class FrontEnd {
   /// Takes the next frame and moves the tracks into it.
   void see(const unisim_image& image, Tracks* tracks);
   TrackMotion motion(const Tracks& tracks);
+  /// The frame seen last is the one before at another scale.
+  bool jumped() const { return jumped_; }
 
   /// The frame seen last becomes a keyframe: measures the tracks thoroughly.
   void begin_keyframe(Tracks* tracks);
@@ -56,6 +59,9 @@ class FrontEnd {
   cv::Mat mask_;
   ImagePreparation preparation_;
   FrameTracker tracker_;
+  ZoomJump jump_;
+  bool jumped_ = false;
+  std::vector<cv::Point2f> before_;  // the tracks in the frame before
   KeyframeRetrack retrack_;
   Detector detector_;
   std::vector<double> scratch_;

@@ -78,13 +78,25 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
   poses_.reserve(tracks);
   growth_.reserve(tracks, static_cast<size_t>(config.max_keyframes));
   bootstrap_.reserve(tracks);
+  zoom_.reserve(tracks);
   revive_.reserve(static_cast<size_t>(config.max_landmarks), tracks, size);
   window_ids_.reserve(static_cast<size_t>(config.max_keyframes));
 }
 
-void Mapper::see(const unisim_image& image) {
-  front_end_.see(image, &state_.tracks);
+void Mapper::see(const unisim_frame& frame) {
+  frame_ = frame.index;
+  front_end_.see(frame.image, &state_.tracks);
+  if (front_end_.jumped()) tell_zoom(frame_);
   if (counts_.started == 0) start_.see_frame(front_end_.gray());
+}
+
+/// Once: what follows a zoom, another one too, is of another size anyway.
+void Mapper::tell_zoom(int64_t frame) {
+  if (zoom_told_) return;
+  zoom_told_ = true;
+  if (!remark_.empty()) remark_ += "; ";
+  remark_ += "the camera seems to have zoomed near frame " + std::to_string(frame) +
+             ": poses and depths after it are of another size and bent; film without zoom";
 }
 
 void Mapper::note_followed() {
@@ -150,6 +162,7 @@ void Mapper::try_start(int32_t id) {
 }
 
 void Mapper::track(int32_t id) {
+  if (zoom_.see_keyframe(state_, id, frame_)) tell_zoom(zoom_.begin());
   FramePose found = poses_.solve_new(state_, id);
   if (!found.good) {
     lose(id);

@@ -14,6 +14,7 @@
 #include "drivers/geometric/patch_store.hpp"
 #include "drivers/geometric/revive.hpp"
 #include "drivers/geometric/state.hpp"
+#include "drivers/geometric/zoom_watch.hpp"
 
 namespace unisim::geometric {
 
@@ -28,7 +29,7 @@ class Mapper {
  public:
   Mapper(const unisim_geometric_config& config, const cv::Size& size);
 
-  void see(const unisim_image& image);
+  void see(const unisim_frame& frame);
   TrackMotion motion() { return front_end_.motion(state_.tracks); }
   /// The frame seen last is keyframe `id`. @return true when the whole state has been adjusted anew
   bool add_keyframe(int32_t id);
@@ -51,6 +52,7 @@ class Mapper {
   int64_t bytes() const;
 
  private:
+  void tell_zoom(int64_t frame);
   void note_followed();
   void observe_tracks(size_t first);
   void detect_tracks();
@@ -71,12 +73,15 @@ class Mapper {
   Bootstrap bootstrap_;
   PatchStore patches_;
   Revive revive_;
+  ZoomWatch zoom_;
   MapAdjustment window_;
   BackgroundAdjustment background_;
   std::vector<int32_t> window_ids_;
   MapperCounts counts_;
   StartStatistics start_;  // until the first start
   std::string remark_;
+  int64_t frame_ = 0;  // index of the frame seen last
+  bool zoom_told_ = false;
   int lost_in_row_ = 0;
   int32_t adjusted_posed_ = 0;  // keyframes posed when the whole state was last adjusted
 };

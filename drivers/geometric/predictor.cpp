@@ -108,7 +108,7 @@ int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motio
       me->left_out_why = me->message;
       return UNISIM_PREDICTION_REJECTED;
     }
-    me->mapper->see(frame->image);
+    me->mapper->see(*frame);
     const TrackMotion moved = me->mapper->motion();
     motion->tracked = moved.kept;
     if (moved.displacement_px < 0) return UNISIM_PREDICTION_OK;

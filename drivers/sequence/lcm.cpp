@@ -28,13 +28,13 @@ class LogSource final : public FrameSource {
 
   int64_t count() const override { return range_.to - range_.from; }
 
-  int read(bool decode_image, unisim_frame* frame) override {
+  int read(int decode, unisim_frame* frame) override {
     if (next_ >= range_.to) return UNISIM_FRAME_END;
     frame->index = next_++;
     const LoggedImage& image = images_[static_cast<size_t>(frame->index)];
     frame->timestamp_ns = image.timestamp_ns;
     if (!in_time_order(frame->index, image.timestamp_ns, path_)) return UNISIM_FRAME_BAD;
-    return decode_image ? decode_message(image, frame) : UNISIM_FRAME_OK;
+    return decode != 0 ? decode_message(image, frame) : UNISIM_FRAME_OK;
   }
 
   int decode_message(const LoggedImage& image, unisim_frame* frame) {

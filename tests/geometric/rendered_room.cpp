@@ -55,13 +55,13 @@ double wall_gray(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray) {
 
 }  // namespace
 
-GrayImage render_room(const CameraPlace& place) {
+GrayImage render_room(const CameraPlace& place, double focal) {
   GrayImage image;
   image.reserve(static_cast<std::size_t>(kWidth) * kHeight);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      const Eigen::Vector3d ray((x - (kWidth / 2.0 - 0.5)) / kFocal,
-                                (y - (kHeight / 2.0 - 0.5)) / kFocal, 1.0);
+      const Eigen::Vector3d ray((x - (kWidth / 2.0 - 0.5)) / focal,
+                                (y - (kHeight / 2.0 - 0.5)) / focal, 1.0);
       const double gray = wall_gray(place.center, place.R * ray);
       image.push_back(static_cast<std::uint8_t>(std::clamp(gray, 0.0, 255.0)));
     }

@@ -21,7 +21,7 @@ struct CameraPlace {
 using GrayImage = std::vector<std::uint8_t>;
 
 /// View into a box room of 6 x 4 x 6 with a smooth random pattern on its walls.
-GrayImage render_room(const CameraPlace& place);
+GrayImage render_room(const CameraPlace& place, double focal = kFocal);
 
 /// A walk sideways and forward while looking around slowly; step 0, 1, 2 ...
 CameraPlace walk(int step);
