@@ -11,15 +11,17 @@ namespace {
 // out): the second fit lowers the cost to 0.3-0.8 in the keyframes of a zoom, to no less than 0.74
 // in others.
 constexpr double kLowerCost = 0.8;
+// Cost for each point of the second fit: zooms stay below 0.5, the last points of a picture that
+// fades to gray do not (1.1 and more) and would seem to zoom.
+constexpr double kGoodFit = 0.7;
 constexpr double kLeastGain = 4.0;    // of the cost: three standard deviations
 constexpr double kLeastStep = 0.012;  // log ratio of a keyframe; less is the noise of good fits
-// Log ratio of a zoom. Zooms of 1.3 add up to 0.2 and more (0.16 where the camera turns fast).
-// Without one it was 0.07 while the focal length of a rendered desk was not found yet and 0.11 on
-// 25 points of an event camera's images; on redkitchen, KITTI, EuRoC and the phone videos no two
-// keyframes in a row zoom.
+// Log ratio of a zoom. Zooms of 1.3 add up to 0.2 and more; without one it was 0.07 while the focal
+// length of a rendered desk was not found yet. On redkitchen, KITTI, EuRoC and the phone videos no
+// two keyframes in a row zoom.
 constexpr double kLeastTotal = 0.15;
 constexpr int32_t kLeastKeyframes = 2;
-constexpr size_t kLeastPoints = 20;
+constexpr size_t kLeastPoints = 40;
 constexpr double kProbe = 0.02;  // log ratio
 constexpr double kWidest = 0.5;  // log ratio from one keyframe to the next
 constexpr int kHalvings = 12;    // leaves 0.3 percent of 2 kWidest
@@ -96,7 +98,8 @@ bool ZoomWatch::zooms(const State& state, double* log_ratio) {
   *log_ratio = best_log_ratio(state);
   const double freed = cost(state, *log_ratio);
   return std::fabs(*log_ratio) >= kLeastStep && held - freed >= kLeastGain &&
-         freed <= kLowerCost * held;
+         freed <= kLowerCost * held &&
+         freed <= kGoodFit * static_cast<double>(observations_.size());
 }
 
 bool ZoomWatch::see_keyframe(const State& state, int32_t id, int64_t frame) {
