@@ -90,7 +90,7 @@ class Subscriber final : public sequence::FrameSource {
   const std::string& frame_path() const override { return channel_; }
   int64_t count() const override { return -1; }
 
-  int read(bool decode_image, unisim_frame* frame) override {
+  int read(int decode, unisim_frame* frame) override {
     std::unique_lock<std::mutex> lock(mutex_);
     const auto foreign_is_news = [this] { return foreign_ > 0 && !foreign_said_; };
     changed_.wait(lock, [&] { return fresh_ || interrupted_ || broken_ || foreign_is_news(); });
@@ -105,7 +105,7 @@ class Subscriber final : public sequence::FrameSource {
     std::swap(newest_, current_);
     fresh_ = false;
     lock.unlock();
-    return give(decode_image, frame);
+    return give(decode != 0, frame);
   }
 
   int give(bool decode_image, unisim_frame* frame) {
