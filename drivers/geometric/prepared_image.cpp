@@ -44,6 +44,7 @@ void ImagePreparation::measure_gain(int window) {
 
 void ImagePreparation::apply_gain(cv::Mat* out) const {
   out->create(gray.size(), CV_8UC1);
+  const int width = gray.cols;  // the bytes written might be it, for all the compiler knows
   const float step = static_cast<float>(wide_gain.rows) / static_cast<float>(gray.rows);
   for (int y = 0; y < gray.rows; ++y) {
     const float at = std::clamp((static_cast<float>(y) + 0.5F) * step - 0.5F, 0.0F,
@@ -55,7 +56,7 @@ void ImagePreparation::apply_gain(cv::Mat* out) const {
     const auto* seen = gray.ptr<uint8_t>(y);
     const auto* around = mean.ptr<uint8_t>(y);
     auto* to = out->ptr<uint8_t>(y);
-    for (int x = 0; x < gray.cols; ++x) {
+    for (int x = 0; x < width; ++x) {
       const float raise = upper[x] + share * (lower[x] - upper[x]);
       const float value = kMiddleGray + raise * static_cast<float>(seen[x] - around[x]);
       to[x] = static_cast<uint8_t>(std::clamp(value + 0.5F, 0.0F, 255.0F));
