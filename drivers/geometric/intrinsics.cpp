@@ -11,8 +11,10 @@ namespace {
 constexpr double kStartFocal = 0.85;  // of the longer side
 constexpr double kStartSigma = 0.3;   // of log focal length
 constexpr double kK1Sigma = 0.02;
-constexpr double kK1MinRotation = 0.17;  // rad
-constexpr double kMinFocal = 0.3;        // of the image width
+constexpr double kK1Wide = 0.05;  // beyond what lenses have that are not meant to be wide
+// rad. Freed later, the focal length of a wide lens has run away to explain what the lens bends.
+constexpr double kK1MinRotation = 0.05;
+constexpr double kMinFocal = 0.3;  // of the image width
 constexpr double kMaxFocal = 3.0;
 }  // namespace
 
@@ -37,7 +39,10 @@ void Intrinsics::give(bool early, BundleIntrinsics* out) const {
   out->log_focal_mean = std::log(start_focal);
   out->log_focal_sigma = early ? kStartSigma : 0.0;
   out->k1_mean = 0.0;
-  out->k1_sigma = kK1Sigma;
+  // A heavy tail towards barrel distortion, which wide lenses have: weak evidence, as in straight
+  // driving, is held near 0, strong evidence pays little for going far. No lens goes far the other
+  // way.
+  out->k1_sigma = std::hypot(kK1Sigma, std::max(0.0, camera.k1 - kK1Wide));
 }
 
 void Intrinsics::take(const BundleIntrinsics& in, const cv::Size& size) {

@@ -25,3 +25,28 @@ TEST_CASE("a known focal length is held, the radial term is still estimated") {
   CHECK(intrinsics.camera.focal_px == 525.5);
   CHECK(intrinsics.camera.k1 == Approx(0.03));
 }
+
+TEST_CASE("the radial term is held until the camera has turned a little") {
+  Intrinsics intrinsics = Intrinsics::start(cv::Size(640, 480), 0);
+  BundleIntrinsics problem;
+  intrinsics.note_rotation(0.03);
+  intrinsics.give(false, &problem);
+  CHECK_FALSE(problem.free_k1);
+  intrinsics.note_rotation(0.07);
+  intrinsics.give(false, &problem);
+  CHECK(problem.free_k1);
+}
+
+TEST_CASE("the prior on the radial term lets a barrel lens go far, and only that") {
+  Intrinsics intrinsics = Intrinsics::start(cv::Size(640, 480), 0);
+  const auto sigma_at = [&](double k1) {
+    intrinsics.camera.k1 = k1;
+    BundleIntrinsics problem;
+    intrinsics.give(false, &problem);
+    return problem.k1_sigma;
+  };
+  CHECK(sigma_at(0.0) == Approx(0.02));
+  CHECK(sigma_at(0.04) == Approx(0.02));
+  CHECK(sigma_at(0.3) > 0.2);
+  CHECK(sigma_at(-0.3) == Approx(0.02));
+}
