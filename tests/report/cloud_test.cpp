@@ -192,7 +192,9 @@ TEST_CASE("pixels below a confidence asked for are left out") {
   Window window(0);
   std::fill(window.confidence.begin(), window.confidence.end(), 0.25F);
   window.confidence[5] = 0.31F;
-  Cloud cloud(CloudOptions{0.25, unisim::replay::kGeometricConfidence});
+  CloudOptions options;
+  options.min_confidence = unisim::replay::kGeometricConfidence;
+  Cloud cloud(options);
   cloud.on_keyframe(0, picture.frame);
   cloud.on_window(0, window.prediction);
   CHECK(fuse(cloud, {{pose_of(0)}, {1.0}}).size() == 1);
