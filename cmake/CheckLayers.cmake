@@ -3,7 +3,7 @@
 #
 #     tools --> drivers --> capi (unisim.h) --> core --> Eigen
 #
-# A driver may include what lies in its own folder, the pipeline and the C headers beside the folders;
+# A driver may include what lies in its own folder, common/, the pipeline and the C headers beside the folders;
 # outside packages only drivers and tools may see.
 
 set(core_standard_headers

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <string>
 
+#include "drivers/common/copy_out.hpp"
 #include "drivers/lcm/error.hpp"
 #include "drivers/lcm/publisher_state.hpp"
 #include "unisim_request_t.h"
@@ -105,8 +106,7 @@ int unisim_lcm_next_request(unisim_lcm_publisher* publisher, int32_t* first_id) 
 void unisim_lcm_publisher_get_counts(const unisim_lcm_publisher* publisher,
                                      unisim_lcm_publisher_counts* counts) {
   const unisim::lcm::SendCounts sent = publisher->queue->counts();
-  const unisim_lcm_publisher_counts all = {counts->struct_size, sent.error_number, sent.queued,
-                                           sent.sent,           sent.dropped,      sent.failed,
-                                           publisher->foreign};
-  std::memcpy(counts, &all, std::min<size_t>(counts->struct_size, sizeof all));
+  const unisim_lcm_publisher_counts all = {
+      0, sent.error_number, sent.queued, sent.sent, sent.dropped, sent.failed, publisher->foreign};
+  unisim::drivers::copy_out(all, counts);
 }

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/common/copy_out.hpp"
 #include "drivers/lcm/error.hpp"
 #include "drivers/lcm/network.hpp"
 #include "drivers/sequence/frame_source.hpp"
@@ -202,7 +203,5 @@ const char* unisim_lcm_subscriber_note(const unisim_source* source, int32_t i) {
 
 void unisim_lcm_subscriber_get_counts(const unisim_source* source,
                                       unisim_lcm_subscriber_counts* counts) {
-  unisim_lcm_subscriber_counts all = static_cast<const unisim::lcm::Subscriber*>(source)->counts();
-  all.struct_size = counts->struct_size;
-  std::memcpy(counts, &all, std::min<size_t>(counts->struct_size, sizeof all));
+  unisim::drivers::copy_out(static_cast<const unisim::lcm::Subscriber*>(source)->counts(), counts);
 }

@@ -5,13 +5,14 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
 
+#include "drivers/common/copy_out.hpp"
+#include "drivers/common/owned.hpp"
 #include "drivers/geometric/geometric.h"
 #include "drivers/library/pipeline.h"
 #include "drivers/pipeline/pipeline.hpp"
@@ -20,30 +21,17 @@
 
 namespace {
 
+using unisim::drivers::copy_out;
+using unisim::drivers::PredictorPtr;
+using unisim::drivers::SourcePtr;
 using unisim::pipeline::LivePose;
 using unisim::pipeline::Outcome;
 using unisim::pipeline::Pipeline;
 using unisim::pipeline::Preparation;
 using unisim::pipeline::Progress;
 
-struct Destroy {
-  void operator()(unisim_source* source) const { source->destroy(source); }
-  void operator()(unisim_predictor* predictor) const { predictor->destroy(predictor); }
-};
-
 void write_line(const std::string& line, char* message, size_t capacity) {
   if (message != nullptr && capacity > 0) std::snprintf(message, capacity, "%s", line.c_str());
-}
-
-/// The caller's struct may be smaller or larger than ours: what both know is copied, the rest of a
-/// larger one is zero.
-template <typename Struct>
-void write_struct(const Struct& ours, Struct* theirs) {
-  const uint32_t size = theirs->struct_size;
-  const size_t known = std::min<size_t>(size, sizeof ours);
-  std::memset(static_cast<void*>(theirs), 0, size);
-  std::memcpy(static_cast<void*>(theirs), &ours, known);
-  theirs->struct_size = size;
 }
 
 }  // namespace
@@ -66,8 +54,8 @@ struct unisim_pipeline : unisim::pipeline::Listener {
   void finish(int how, const std::string& why);
 
   unisim_pipeline_config config;
-  std::unique_ptr<unisim_source, Destroy> source;
-  std::unique_ptr<unisim_predictor, Destroy> predictor;
+  SourcePtr source;
+  PredictorPtr predictor;
   std::unique_ptr<Pipeline> run;
   std::atomic<bool> stop{false};
   std::thread thread;
@@ -228,7 +216,7 @@ void unisim_pipeline_config_init(unisim_pipeline_config* config, size_t struct_s
   defaults.every_frame = 1;
   defaults.patience_ms = 60000;
   config->struct_size = static_cast<uint32_t>(struct_size);
-  write_struct(defaults, config);
+  copy_out(defaults, config);
 }
 
 unisim_pipeline* unisim_pipeline_start(const unisim_pipeline_config* config, char* message,
@@ -273,13 +261,13 @@ const char* unisim_pipeline_message(const unisim_pipeline* pipeline) {
 
 void unisim_pipeline_get_status(const unisim_pipeline* pipeline, unisim_pipeline_status* status) {
   const std::lock_guard<std::mutex> lock(pipeline->mutex);
-  write_struct(pipeline->status, status);
+  copy_out(pipeline->status, status);
 }
 
 int unisim_pipeline_get_pose(const unisim_pipeline* pipeline, unisim_live_pose* pose) {
   const std::lock_guard<std::mutex> lock(pipeline->mutex);
   if (pipeline->live.struct_size == 0) return 0;
-  write_struct(pipeline->live, pose);
+  copy_out(pipeline->live, pose);
   return 1;
 }
 

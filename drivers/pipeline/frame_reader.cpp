@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <condition_variable>
-#include <cstring>
 #include <exception>
 #include <mutex>
 #include <utility>
 #include <vector>
+
+#include "drivers/common/packed_copy.hpp"
 
 namespace unisim::pipeline {
 namespace {
@@ -72,7 +73,6 @@ class FrameReader::Shared {
   void fill(Slot* slot);
   void check(Slot* slot);
   int check_shape(const std::string& where, Slot* slot);
-  void take_pixels(Slot* slot);
 
   unisim_source* source_;
   int decode_;
@@ -212,26 +212,13 @@ int FrameReader::Shared::check_shape(const std::string& where, Slot* slot) {
   }
   if (first_.format == 0) first_ = image;
   if (same_shape(first_, image)) {
-    take_pixels(slot);
+    image = drivers::packed_copy(image, &slot->pixels);
     return UNISIM_FRAME_OK;
   }
   slot->item.message = where + ": image is " + size_text(image) + ", the first one was " +
                        size_text(first_) + (if_readable ? "" : "; frame skipped");
   image = {};
   return if_readable ? UNISIM_FRAME_OK : UNISIM_FRAME_BAD;
-}
-
-void FrameReader::Shared::take_pixels(Slot* slot) {
-  unisim_image& image = slot->item.frame.image;
-  const size_t row = static_cast<size_t>(image.width) * static_cast<size_t>(image.format);
-  slot->pixels.resize(row * static_cast<size_t>(image.height));
-  for (int32_t y = 0; y < image.height; ++y) {
-    const size_t line = static_cast<size_t>(y);
-    std::memcpy(slot->pixels.data() + line * row,
-                image.data + line * static_cast<size_t>(image.stride), row);
-  }
-  image.data = slot->pixels.data();
-  image.stride = static_cast<int32_t>(row);
 }
 
 FrameReader::FrameReader(unisim_source* source, int depth, int decode, Queue queue)

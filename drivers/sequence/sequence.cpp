@@ -9,6 +9,7 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <string>
 
+#include "drivers/common/copy_out.hpp"
 #include "drivers/sequence/folder.hpp"
 #include "drivers/sequence/frame_source.hpp"
 #include "drivers/sequence/text_file.hpp"
@@ -122,7 +123,7 @@ const char* unisim_sequence_frame_path(const unisim_source* source) {
 void unisim_sequence_get_pixels(const unisim_source* source, unisim_sequence_pixels* pixels) {
   const unisim::sequence::PixelRule& rule =
       static_cast<const unisim::sequence::FrameSource*>(source)->pixel_rule();
-  const unisim_sequence_pixels all = {pixels->struct_size, rule.orientation, rule.bits,
-                                      rule.stretched.width, rule.stretched.height};
-  std::memcpy(pixels, &all, std::min<size_t>(pixels->struct_size, sizeof all));
+  const unisim_sequence_pixels all = {0, rule.orientation, rule.bits, rule.stretched.width,
+                                      rule.stretched.height};
+  unisim::drivers::copy_out(all, pixels);
 }

@@ -2,9 +2,9 @@
 // The configuration: defaults, checks.
 #include "drivers/v4l2/settings.hpp"
 
-#include <algorithm>
 #include <cstring>
 
+#include "drivers/common/copy_out.hpp"
 #include "drivers/v4l2/failure.hpp"
 #include "drivers/v4l2/pixel_formats.hpp"
 
@@ -77,8 +77,6 @@ Settings check_settings(const unisim_v4l2_config* given) {
 }  // namespace unisim::v4l2
 
 void unisim_v4l2_config_init(unisim_v4l2_config* config, size_t struct_size) {
-  const unisim_v4l2_config all = unisim::v4l2::defaults();
-  std::memset(config, 0, struct_size);
-  std::memcpy(config, &all, std::min(struct_size, sizeof all));
   config->struct_size = static_cast<uint32_t>(struct_size);
+  unisim::drivers::copy_out(unisim::v4l2::defaults(), config);
 }

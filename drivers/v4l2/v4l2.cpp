@@ -2,12 +2,12 @@
 // The C functions of this driver over its classes.
 #include "drivers/v4l2/v4l2.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <string>
 
+#include "drivers/common/copy_out.hpp"
 #include "drivers/v4l2/failure.hpp"
 #include "drivers/v4l2/open.hpp"
 #include "drivers/v4l2/settings.hpp"
@@ -51,9 +51,7 @@ unisim_source* unisim_v4l2_open(const unisim_v4l2_config* config, int32_t* probl
 }
 
 void unisim_v4l2_get_mode(const unisim_source* source, unisim_v4l2_mode* mode) {
-  unisim_v4l2_mode all = self(source)->mode();
-  all.struct_size = mode->struct_size;
-  std::memcpy(mode, &all, std::min<size_t>(mode->struct_size, sizeof all));
+  unisim::drivers::copy_out(self(source)->mode(), mode);
 }
 
 const char* unisim_v4l2_note(const unisim_source* source, int32_t index) {
@@ -65,7 +63,7 @@ const char* unisim_v4l2_note(const unisim_source* source, int32_t index) {
 
 void unisim_v4l2_get_statistics(const unisim_source* source, unisim_v4l2_statistics* statistics) {
   const unisim::v4l2::Counters& counters = self(source)->counters();
-  const unisim_v4l2_statistics all = {statistics->struct_size,
+  const unisim_v4l2_statistics all = {0,
                                       0,
                                       counters.frames,
                                       counters.lost,
@@ -75,5 +73,5 @@ void unisim_v4l2_get_statistics(const unisim_source* source, unisim_v4l2_statist
                                       counters.restamped,
                                       counters.restarts,
                                       counters.reconnects};
-  std::memcpy(statistics, &all, std::min<size_t>(statistics->struct_size, sizeof all));
+  unisim::drivers::copy_out(all, statistics);
 }

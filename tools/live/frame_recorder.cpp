@@ -10,6 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <system_error>
 
+#include "drivers/common/packed_copy.hpp"
 #include "tools/common/failure.hpp"
 #include "tools/common/text.hpp"
 
@@ -59,15 +60,7 @@ void FrameRecorder::on_frame(const unisim_frame& frame) {
   Slot& slot = slots_[(head_ + filled_) % slots_.size()];
   lock.unlock();  // the writer does not touch a slot that is not filled
   slot.timestamp_ns = frame.timestamp_ns;
-  slot.image = frame.image;
-  const size_t row =
-      static_cast<size_t>(frame.image.width) * static_cast<size_t>(frame.image.format);
-  slot.pixels.resize(row * static_cast<size_t>(frame.image.height));
-  for (int32_t y = 0; y < frame.image.height; ++y) {
-    const size_t line = static_cast<size_t>(y);
-    std::memcpy(slot.pixels.data() + line * row,
-                frame.image.data + line * static_cast<size_t>(frame.image.stride), row);
-  }
+  slot.image = drivers::packed_copy(frame.image, &slot.pixels);
   lock.lock();
   ++filled_;
   changed_.notify_all();
@@ -113,7 +106,7 @@ void FrameRecorder::loop() {
 std::string FrameRecorder::write(const Slot& slot) {
   const int type = slot.image.format == UNISIM_PIXEL_GRAY8 ? CV_8UC1 : CV_8UC3;
   const cv::Mat view(slot.image.height, slot.image.width, type,
-                     const_cast<uint8_t*>(slot.pixels.data()));
+                     const_cast<uint8_t*>(slot.image.data));
   const std::string name = name_of(written_);
   // The least compression: larger files, a third of the time.
   constexpr int kLevel = 1;

@@ -2,22 +2,16 @@
 // Opens what a run works with: the sequence and the predictor.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "drivers/predictor.h"
-#include "drivers/source.h"
+#include "drivers/common/owned.hpp"
 #include "tools/replay/options.hpp"
 
 namespace unisim::replay {
 
-struct Destroy {
-  void operator()(unisim_source* source) const { source->destroy(source); }
-  void operator()(unisim_predictor* predictor) const { predictor->destroy(predictor); }
-};
-using SourcePtr = std::unique_ptr<unisim_source, Destroy>;
-using PredictorPtr = std::unique_ptr<unisim_predictor, Destroy>;
+using drivers::PredictorPtr;
+using drivers::SourcePtr;
 
 /// Throws Failure (3).
 /// @param[out] notes lines worth telling
