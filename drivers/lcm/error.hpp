@@ -4,10 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 
+#include "drivers/common/creation.hpp"
 #include "drivers/lcm/problem.h"
 
 namespace unisim::lcm {
@@ -24,28 +24,10 @@ class LcmError : public std::runtime_error {
   int32_t problem_;
 };
 
-/// What `make` returns, a pointer; nullptr when it throws, and why.
-/// @param[out] problem UNISIM_LCM_*; may be nullptr, as `message` may
-/// @param[out] message one line, cut to `capacity` bytes
+/// drivers::create() with the problems of this driver.
 template <class Make>
 auto create(int32_t* problem, char* message, size_t capacity, Make make) -> decltype(make()) {
-  int32_t kind = UNISIM_LCM_OK;
-  std::string line;
-  decltype(make()) made = nullptr;
-  try {
-    made = make();
-  } catch (const LcmError& error) {
-    kind = error.problem();
-    line = error.what();
-  } catch (const std::exception& error) {
-    kind = UNISIM_LCM_NO_MEMORY;
-    line = std::string("lcm: ") + error.what();
-  }
-  if (problem != nullptr) *problem = kind;
-  if (made == nullptr && message != nullptr && capacity > 0) {
-    std::snprintf(message, capacity, "%s", line.c_str());
-  }
-  return made;
+  return drivers::create<LcmError>("lcm: ", UNISIM_LCM_NO_MEMORY, problem, message, capacity, make);
 }
 
 }  // namespace unisim::lcm

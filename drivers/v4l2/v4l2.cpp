@@ -2,12 +2,10 @@
 // The C functions of this driver over its classes.
 #include "drivers/v4l2/v4l2.h"
 
-#include <cstdio>
-#include <cstring>
-#include <exception>
 #include <string>
 
 #include "drivers/common/copy_out.hpp"
+#include "drivers/common/creation.hpp"
 #include "drivers/v4l2/failure.hpp"
 #include "drivers/v4l2/open.hpp"
 #include "drivers/v4l2/settings.hpp"
@@ -25,23 +23,9 @@ const CameraSource* self(const unisim_source* source) {
 
 unisim_source* unisim::v4l2::open_camera(Io& io, const unisim_v4l2_config* config, int32_t* problem,
                                          char* message, size_t message_size) {
-  int32_t kind = UNISIM_V4L2_OK;
-  std::string failure;
-  unisim_source* source = nullptr;
-  try {
-    source = new CameraSource(io, check_settings(config));
-  } catch (const DeviceError& error) {
-    kind = error.problem();
-    failure = error.what();
-  } catch (const std::exception& error) {
-    kind = UNISIM_V4L2_FAILED;
-    failure = std::string("camera: ") + error.what();
-  }
-  if (problem != nullptr) *problem = kind;
-  if (message != nullptr && message_size > 0) {
-    std::snprintf(message, message_size, "%s", failure.c_str());
-  }
-  return source;
+  return drivers::create<DeviceError>(
+      "camera: ", UNISIM_V4L2_FAILED, problem, message, message_size,
+      [&]() -> unisim_source* { return new CameraSource(io, check_settings(config)); });
 }
 
 unisim_source* unisim_v4l2_open(const unisim_v4l2_config* config, int32_t* problem, char* message,
