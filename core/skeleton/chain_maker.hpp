@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/map/map.hpp"
-#include "core/solve/condenser.hpp"
+#include "core/solve/factor/condenser.hpp"
 
 namespace unisim {
 

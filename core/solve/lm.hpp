@@ -7,10 +7,10 @@
 #include "core/base/arena.hpp"
 #include "core/base/status.hpp"
 #include "core/graph/graph.hpp"
-#include "core/solve/block_cholesky.hpp"
-#include "core/solve/block_pattern.hpp"
+#include "core/solve/factor/block_cholesky.hpp"
+#include "core/solve/linearize/normal_equations.hpp"
 #include "core/solve/lm_observer.hpp"
-#include "core/solve/normal_equations.hpp"
+#include "core/solve/order/block_pattern.hpp"
 
 namespace unisim {
 

@@ -5,12 +5,12 @@
 #include <array>
 #include <opencv2/core.hpp>
 
-#include "drivers/geometric/detector.hpp"
-#include "drivers/geometric/frame_tracker.hpp"
-#include "drivers/geometric/keyframe_retrack.hpp"
-#include "drivers/geometric/prepared_image.hpp"
-#include "drivers/geometric/tracks.hpp"
-#include "drivers/geometric/zoom_jump.hpp"
+#include "drivers/geometric/image/detector.hpp"
+#include "drivers/geometric/image/frame_tracker.hpp"
+#include "drivers/geometric/image/keyframe_retrack.hpp"
+#include "drivers/geometric/image/prepared_image.hpp"
+#include "drivers/geometric/image/tracks.hpp"
+#include "drivers/geometric/zoom/zoom_jump.hpp"
 
 namespace unisim::geometric {
 

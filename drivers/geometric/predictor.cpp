@@ -11,9 +11,9 @@
 
 #include "drivers/geometric/config.hpp"
 #include "drivers/geometric/geometric.h"
-#include "drivers/geometric/mapper.hpp"
-#include "drivers/geometric/predictions.hpp"
-#include "drivers/geometric/start_report.hpp"
+#include "drivers/geometric/map/mapper.hpp"
+#include "drivers/geometric/predict/predictions.hpp"
+#include "drivers/geometric/start/start_report.hpp"
 
 namespace unisim::geometric {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A job in the background: done when waited for, and its failure reaches the one who waits.
-#include "drivers/geometric/background_worker.hpp"
+#include "drivers/geometric/map/background_worker.hpp"
 
 #include <new>
 #include <stdexcept>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where corners are looked for.
-#include "drivers/geometric/detector.hpp"
+#include "drivers/geometric/image/detector.hpp"
 
 #include <algorithm>
 #include <vector>

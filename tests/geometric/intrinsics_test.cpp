@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "drivers/geometric/intrinsics.hpp"
+#include "drivers/geometric/start/intrinsics.hpp"
 
 #include "tests/support/catch.hpp"
 

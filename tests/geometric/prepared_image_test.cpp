@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How an image is made ready for tracking.
-#include "drivers/geometric/prepared_image.hpp"
+#include "drivers/geometric/image/prepared_image.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Block Cholesky: a worked example, capacities, bad pivots.
-#include "core/solve/block_cholesky.hpp"
+#include "core/solve/factor/block_cholesky.hpp"
 
 #include <vector>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Dense kernels on padded blocks against Eigen.
-#include "core/solve/block_kernels.hpp"
+#include "core/solve/factor/block_kernels.hpp"
 
 #include <limits>
 
-#include "core/solve/block_map.hpp"
+#include "core/solve/order/block_map.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/unit/core_support.hpp"
 

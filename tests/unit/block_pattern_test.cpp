@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Block pattern: columns, slots, capacities.
-#include "core/solve/block_pattern.hpp"
+#include "core/solve/order/block_pattern.hpp"
 
 #include "tests/support/catch.hpp"
 #include "tests/unit/core_support.hpp"

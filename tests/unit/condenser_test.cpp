@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A small graph condensed to one chain edge.
-#include "core/solve/condenser.hpp"
+#include "core/solve/factor/condenser.hpp"
 
 #include "core/graph/two_view.hpp"
 #include "tests/support/catch.hpp"

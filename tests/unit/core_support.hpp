@@ -12,8 +12,8 @@
 #include "core/base/arena.hpp"
 #include "core/graph/graph.hpp"
 #include "core/lie/sim3.hpp"
-#include "core/solve/block_map.hpp"
 #include "core/solve/lm.hpp"
+#include "core/solve/order/block_map.hpp"
 
 namespace unisim_test {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which edges keep their linearisation when their ends move.
-#include "core/solve/linearization_points.hpp"
+#include "core/solve/linearize/linearization_points.hpp"
 
 #include "tests/support/catch.hpp"
 #include "tests/unit/core_support.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Normal equations against the products of the factors' Jacobians.
-#include "core/solve/normal_equations.hpp"
+#include "core/solve/linearize/normal_equations.hpp"
 
 #include "core/graph/bridge.hpp"
 #include "core/graph/tie.hpp"

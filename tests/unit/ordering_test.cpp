@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Minimum degree: a permutation that fills as little as known for simple patterns.
-#include "core/solve/ordering.hpp"
+#include "core/solve/order/ordering.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Edges four at a time against the formulas of one edge.
-#include "core/solve/pose_quad.hpp"
+#include "core/solve/linearize/pose_quad.hpp"
 
 #include <cmath>
 #include <cstring>
@@ -12,8 +12,8 @@
 #include "core/graph/relative_pose.hpp"
 #include "core/graph/rigid.hpp"
 #include "core/graph/robust_kernel.hpp"
-#include "core/solve/block_map.hpp"
-#include "core/solve/quad_collector.hpp"
+#include "core/solve/linearize/quad_collector.hpp"
+#include "core/solve/order/block_map.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/unit/core_support.hpp"
 

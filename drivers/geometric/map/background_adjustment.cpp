@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Adjusts the whole state now and then, beside tracking.
+#include "drivers/geometric/map/background_adjustment.hpp"
+
+#include <algorithm>
+
+namespace unisim::geometric {
+
+namespace {
+constexpr double kTolerance = 1e-4;
+constexpr size_t kMinRatios = 5;
+constexpr size_t kSpreadViews = 16;  // of a wide window
+}  // namespace
+
+BackgroundAdjustment::BackgroundAdjustment(const BundleCapacity& capacity, const MapCapacity& map,
+                                           bool threaded)
+    : adjustment_(capacity, map),
+      adjusted_(static_cast<size_t>(map.landmarks), 0),
+      worker_([this] { work(); }, threaded) {
+  keyframes_.reserve(static_cast<size_t>(map.keyframes));
+  spread_.reserve(kSpreadViews);
+  ratios_.reserve(static_cast<size_t>(map.observations_per_keyframe));
+}
+
+void BackgroundAdjustment::start(const State& state, int32_t keyframe, int iterations) {
+  keyframes_.clear();
+  for (int32_t k = state.map.first_id(); k <= keyframe; ++k) {
+    const Keyframe& from = state.map.keyframe(k);
+    if (from.posed && from.segment == state.segment) keyframes_.push_back(k);
+  }
+  choose_spread();
+  adjustment_.build(state, keyframes_.data(), keyframes_.size());
+  segment_ = state.segment;
+  started_at_ = keyframe;
+  iterations_ = iterations;
+  pending_ = true;
+  worker_.start();
+}
+
+void BackgroundAdjustment::choose_spread() {
+  spread_.clear();
+  const size_t last = keyframes_.size() - 1;
+  const size_t views = std::min(kSpreadViews, keyframes_.size());
+  for (size_t i = 0; i < views && views > 1; ++i) {
+    spread_.push_back(keyframes_[(i * last + (views - 1) / 2) / (views - 1)]);
+  }
+}
+
+void BackgroundAdjustment::work() {
+  const BundleResult result = adjustment_.solve(iterations_, kTolerance);
+  usable_ = result.status == BundleStatus::kConverged ||
+            result.status == BundleStatus::kIterationCap ||
+            result.status == BundleStatus::kNoDescent;
+  const BundlePrecision precision = adjustment_.precision(spread_.data(), spread_.size());
+  log_focal_sigma_ = precision.valid ? precision.log_focal_sigma : 0;
+  spread_sigma_ = precision.valid ? precision.center_sigma : 0;
+}
+
+BackgroundAdjustment::Move BackgroundAdjustment::move_of_newest(const State& state) {
+  const int32_t newest = keyframes_.back();
+  const CameraPose& now = state.map.keyframe(newest).pose;
+  const CameraPose& better =
+      adjustment_.problem().camera(static_cast<int>(adjustment_.cameras()) - 1).pose;
+  ratios_.clear();
+  for (size_t p = 0; p < adjustment_.points(); ++p) {
+    const Landmark& mark = state.map.landmark(adjustment_.landmark_of(p));
+    if (mark.generation != adjustment_.generation_of(p)) continue;
+    if (mark.state != LandmarkState::kPlaced || mark.soft) continue;
+    if (mark.last.keyframe < newest) continue;
+    const double depth = now.apply(mark.position).z();
+    const double depth_better =
+        better.apply(adjustment_.problem().point(static_cast<int>(p)).position).z();
+    if (depth > kMinDepth && depth_better > kMinDepth) ratios_.push_back(depth_better / depth);
+  }
+  Move move;
+  if (ratios_.size() >= kMinRatios) {
+    const auto middle = ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 2);
+    std::nth_element(ratios_.begin(), middle, ratios_.end());
+    move.scale = *middle;
+  }
+  move.R = better.R.transpose() * now.R;
+  move.t = better.center() - move.scale * (move.R * now.center());
+  return move;
+}
+
+void BackgroundAdjustment::move_rest(const Move& move, State* state) {
+  for (int32_t k = keyframes_.back() + 1; k < state->map.end_id(); ++k) {
+    Keyframe& later = state->map.keyframe(k);
+    if (!later.posed) continue;
+    const Eigen::Vector3d center = move.scale * (move.R * later.pose.center()) + move.t;
+    later.pose.R = later.pose.R * move.R.transpose();
+    later.pose.t = -(later.pose.R * center);
+  }
+  std::fill(adjusted_.begin(), adjusted_.end(), uint8_t{0});
+  for (size_t p = 0; p < adjustment_.points(); ++p) {
+    const auto slot = static_cast<size_t>(adjustment_.landmark_of(p));
+    const Landmark& mark = state->map.landmark(adjustment_.landmark_of(p));
+    adjusted_[slot] = mark.generation == adjustment_.generation_of(p) ? 1 : 0;
+  }
+  for (int32_t slot = 0; slot < state->map.landmark_capacity(); ++slot) {
+    Landmark& mark = state->map.landmark(slot);
+    if (mark.state != LandmarkState::kPlaced || mark.segment != segment_) continue;
+    if (adjusted_[static_cast<size_t>(slot)]) continue;
+    mark.position = move.scale * (move.R * mark.position) + move.t;
+  }
+  state->median_depth *= move.scale;
+}
+
+void BackgroundAdjustment::take(State* state) {
+  for (size_t c = 0; c < adjustment_.cameras(); ++c) {
+    const int32_t id = adjustment_.keyframe_of(c);
+    if (!state->map.holds(id)) continue;
+    state->map.keyframe(id).pose = adjustment_.problem().camera(static_cast<int>(c)).pose;
+  }
+  for (size_t p = 0; p < adjustment_.points(); ++p) {
+    Landmark& mark = state->map.landmark(adjustment_.landmark_of(p));
+    if (mark.generation != adjustment_.generation_of(p)) continue;
+    mark.position = adjustment_.problem().point(static_cast<int>(p)).position;
+  }
+  state->intrinsics.take(adjustment_.problem().intrinsics, state->size);
+  state->intrinsics.log_focal_sigma = log_focal_sigma_;
+}
+
+bool BackgroundAdjustment::merge(State* state) {
+  pending_ = false;
+  worker_.wait();
+  if (!usable_ || segment_ != state->segment || keyframes_.empty()) return false;
+  if (!state->map.holds(keyframes_.back())) return false;
+  move_rest(move_of_newest(*state), state);
+  take(state);
+  std::vector<int32_t>& all = keyframes_;
+  all.clear();
+  for (int32_t k = state->map.first_id(); k < state->map.end_id(); ++k) {
+    const Keyframe& from = state->map.keyframe(k);
+    if (from.posed && from.segment == state->segment) all.push_back(k);
+  }
+  cull(state, all.data(), all.size(), kInlierGate);
+  return true;
+}
+
+}  // namespace unisim::geometric

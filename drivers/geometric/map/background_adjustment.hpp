@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Adjusts the whole state now and then, beside tracking: on a copy, in a thread of its own, merged
+// at a fixed later keyframe, so that the result does not depend on the thread's speed.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "drivers/geometric/map/background_worker.hpp"
+#include "drivers/geometric/map/map_adjustment.hpp"
+#include "drivers/geometric/map/state.hpp"
+
+namespace unisim::geometric {
+
+class BackgroundAdjustment {
+ public:
+  /// @param threaded false: the work is done within start(); the results are the same
+  BackgroundAdjustment(const BundleCapacity& capacity, const MapCapacity& map, bool threaded);
+
+  bool running() const { return pending_; }
+  /// Keyframe with which the pending adjustment is due to be merged. A larger state takes longer.
+  int32_t due_at(int32_t latency) const {
+    return started_at_ + std::max(latency, static_cast<int32_t>(keyframes_.size()) / 12);
+  }
+
+  /// Keyframes of the adjustment merged last, spread evenly over all of them.
+  const std::vector<int32_t>& spread() const { return spread_; }
+  /// Precision of their centres, that of the intrinsics included; 0 when not known.
+  double spread_sigma() const { return spread_sigma_; }
+
+  /// Copies the segment's posed keyframes and begins.
+  void start(const State& state, int32_t keyframe, int iterations);
+  /// Waits for the result and takes it into the state; what was added meanwhile moves along.
+  /// Throws what the adjustment threw. @return false when the result no longer fits (the segment
+  /// ended)
+  bool merge(State* state);
+
+  int64_t bytes() const { return adjustment_.bytes(); }
+
+ private:
+  /// Similarity p' = scale R p + t from the present world to the adjusted one.
+  struct Move {
+    double scale = 1;
+    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d t = Eigen::Vector3d::Zero();
+  };
+  void choose_spread();
+  void work();
+  Move move_of_newest(const State& state);
+  void move_rest(const Move& move, State* state);
+  void take(State* state);
+
+  MapAdjustment adjustment_;
+  std::vector<int32_t> keyframes_;
+  std::vector<int32_t> spread_;
+  std::vector<double> ratios_;
+  std::vector<uint8_t> adjusted_;  // by landmark: is in the problem
+  int32_t segment_ = 0;
+  int32_t started_at_ = 0;
+  int iterations_ = 0;
+  bool usable_ = false;
+  double log_focal_sigma_ = 0;
+  double spread_sigma_ = 0;
+  bool pending_ = false;
+  BackgroundWorker worker_;  // last: its thread ends before what it works on
+};
+
+}  // namespace unisim::geometric

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// Gives positions to the tracks of the newest keyframe.
+#include "drivers/geometric/map/landmark_growth.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unisim::geometric {
+
+namespace {
+constexpr int kMinViews = 3;      // to triangulate
+constexpr int kMinSoftViews = 2;  // to guess
+constexpr size_t kMaxViews = 48;  // per triangulation, spread over the track
+constexpr size_t kMinNeighbours = 6;
+constexpr double kNeighbourRadius = 60;  // pixels at the reference diagonal
+constexpr double kSoftNeighbourWeight = 0.1;
+constexpr double kFallbackWeight = 0.05;  // of the median depth
+constexpr double kSoftGate = 6;           // pixels at the reference diagonal
+}  // namespace
+
+void LandmarkGrowth::reserve(size_t observations, size_t views) {
+  neighbours_.reserve(observations);
+  depths_.reserve(observations);
+  views_.reserve(views);
+}
+
+bool LandmarkGrowth::gather(const State& state, int32_t slot) {
+  views_.clear();
+  state.map.for_each_observation(slot, [&](const ObservationRef& ref, const Observation& seen) {
+    if (!state.map.counts(ref)) return;
+    views_.push_back(
+        {&state.map.keyframe(ref.keyframe).pose, state.intrinsics.camera.normalize(seen.pixel())});
+  });
+  if (views_.size() > kMaxViews) {
+    for (size_t i = 0; i < kMaxViews; ++i) {
+      views_[i] = views_[i * (views_.size() - 1) / (kMaxViews - 1)];
+    }
+    views_.resize(kMaxViews);
+  }
+  return views_.size() >= 2;
+}
+
+bool LandmarkGrowth::triangulate_landmark(State* state, int32_t slot, double gate) {
+  if (!gather(*state, slot)) return false;
+  TriangulationOptions options;
+  options.min_parallax_rad = kMinParallaxRad;
+  options.max_error = gate * state->pixel_scale / state->intrinsics.camera.focal_px;
+  const TriangulationResult result =
+      triangulate(views_.data(), static_cast<int>(views_.size()), options);
+  if (result.status != TriangulationStatus::kOk) return false;
+  Landmark& mark = state->map.landmark(slot);
+  mark.position = result.position;
+  mark.state = LandmarkState::kPlaced;
+  mark.soft = false;
+  return true;
+}
+
+void LandmarkGrowth::collect_neighbours(State* state, int32_t keyframe) {
+  neighbours_.clear();
+  depths_.clear();
+  const Keyframe& newest = state->map.keyframe(keyframe);
+  for (int32_t i = 0; i < newest.observations; ++i) {
+    const Observation& seen = state->map.observation(keyframe, i);
+    if (seen.landmark < 0) continue;
+    const Landmark& mark = state->map.landmark(seen.landmark);
+    if (mark.state != LandmarkState::kPlaced) continue;
+    const double depth = newest.pose.apply(mark.position).z();
+    if (!(depth > kMinDepth)) continue;
+    neighbours_.push_back({seen.pixel(), depth, mark.soft ? kSoftNeighbourWeight : 1.0});
+    depths_.push_back(depth);
+  }
+  if (depths_.size() < kMinNeighbours) return;
+  const auto middle = depths_.begin() + static_cast<std::ptrdiff_t>(depths_.size() / 2);
+  std::nth_element(depths_.begin(), middle, depths_.end());
+  state->median_depth = *middle;
+}
+
+void LandmarkGrowth::promote(State* state, int32_t slot) {
+  Landmark& mark = state->map.landmark(slot);
+  if (mark.observations < kMinViews || !gather(*state, slot)) return;
+  if (parallax_angle(views_.data(), static_cast<int>(views_.size())) <= kMinParallaxRad) return;
+  triangulate_landmark(state, slot, kTriangulationGate);
+  mark.soft = false;
+}
+
+void LandmarkGrowth::guess_depth(State* state, int32_t slot, int32_t keyframe,
+                                 const Eigen::Vector2d& pixel) {
+  if (!(state->median_depth > 0) || !state->map.anchor(slot).valid()) return;
+  double weight = kFallbackWeight;
+  double inverse = kFallbackWeight / state->median_depth;
+  const double radius = kNeighbourRadius * state->pixel_scale;
+  for (const Neighbour& near : neighbours_) {
+    const double distance2 = (near.pixel - pixel).squaredNorm() / (radius * radius);
+    const double w = near.weight * std::exp(-distance2 / 2);
+    weight += w;
+    inverse += w / near.depth;
+  }
+  const CameraPose& pose = state->map.keyframe(keyframe).pose;
+  const Eigen::Vector2d ray = state->intrinsics.camera.normalize(pixel);
+  const double depth = weight / inverse;
+  const Eigen::Vector3d position =
+      pose.R.transpose() * (depth * Eigen::Vector3d(ray.x(), ray.y(), 1) - pose.t);
+  bool consistent = position.allFinite();
+  state->map.for_each_observation(slot, [&](const ObservationRef& ref, const Observation& seen) {
+    if (!state->map.counts(ref)) return;
+    const Keyframe& from = state->map.keyframe(ref.keyframe);
+    consistent = consistent &&
+                 reprojection_error(*state, seen, from, position) <= kSoftGate * state->pixel_scale;
+  });
+  if (!consistent) return;
+  Landmark& mark = state->map.landmark(slot);
+  mark.position = position;
+  mark.state = LandmarkState::kPlaced;
+  mark.soft = true;
+}
+
+void LandmarkGrowth::run(State* state, int32_t keyframe) {
+  collect_neighbours(state, keyframe);
+  const Keyframe& newest = state->map.keyframe(keyframe);
+  for (int32_t i = 0; i < newest.observations; ++i) {
+    const Observation& seen = state->map.observation(keyframe, i);
+    if (seen.landmark < 0) continue;
+    const Landmark& mark = state->map.landmark(seen.landmark);
+    if (mark.state == LandmarkState::kPlaced) {
+      if (mark.soft) promote(state, seen.landmark);
+      continue;
+    }
+    if (mark.state != LandmarkState::kCandidate || mark.observations < kMinSoftViews) continue;
+    if (mark.observations >= kMinViews &&
+        triangulate_landmark(state, seen.landmark, kTriangulationGate)) {
+      continue;
+    }
+    guess_depth(state, seen.landmark, keyframe, seen.pixel());
+  }
+}
+
+}  // namespace unisim::geometric

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+// The running map: what is done with each frame and each keyframe, and in which order.
+#include "drivers/geometric/map/mapper.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/geometric/start/start_report.hpp"
+
+namespace unisim::geometric {
+
+namespace {
+
+constexpr double kSpacing = 0.6;  // of the mean distance between evenly spread features
+constexpr int kMaxLostInRow = 2;  // keyframes without pose until a new segment begins
+constexpr int kEarlyIterations = 8;
+constexpr int kWindowIterations = 4;
+constexpr double kWindowTolerance = 1e-2;
+constexpr int kWholeIterations = 6;
+constexpr int32_t kWholeGapShare =
+    10;  // of the keyframes held: least gap between adjustments of all
+constexpr int kFinalIterations = 15;
+constexpr int kFinalRounds = 2;
+constexpr size_t kMaxEarlyWindow = 32;
+constexpr double kTurnRad = 0.017;       // turned on the spot: at least this angle ...
+constexpr double kTurnBaseline = 0.003;  // ... and at most this baseline over median depth
+
+int32_t per_keyframe(const unisim_geometric_config& config) {
+  return config.max_tracks + config.revive_tries;
+}
+
+MapCapacity map_capacity(const unisim_geometric_config& config) {
+  return {config.max_keyframes, config.max_landmarks, per_keyframe(config)};
+}
+
+size_t most_free(const unisim_geometric_config& config) {
+  return std::max(static_cast<size_t>(config.window_size), kMaxEarlyWindow);
+}
+
+BundleCapacity window_capacity(const unisim_geometric_config& config) {
+  BundleCapacity out;
+  out.cameras = config.max_keyframes;
+  out.free_cameras = std::max(static_cast<int>(most_free(config)), UNISIM_MAX_VIEWS);
+  out.points = std::min(config.max_landmarks, out.free_cameras * config.max_tracks);
+  out.observations = 2 * out.free_cameras * config.max_tracks;
+  return out;
+}
+
+BundleCapacity whole_capacity(const unisim_geometric_config& config) {
+  BundleCapacity out;
+  out.cameras = out.free_cameras = config.max_keyframes;
+  out.points = config.max_landmarks;
+  out.observations = config.max_keyframes * config.max_tracks;
+  return out;
+}
+
+double angle_between(const CameraPose& a, const CameraPose& b) {
+  return Eigen::AngleAxisd(Eigen::Matrix3d(a.R * b.R.transpose())).angle();
+}
+
+}  // namespace
+
+Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
+    : state_(config, map_capacity(config)),
+      patches_(config.max_landmarks),
+      window_(window_capacity(config), map_capacity(config)),
+      background_(whole_capacity(config), map_capacity(config), config.background != 0) {
+  state_.size = size;
+  state_.pixel_scale = std::hypot(size.width, size.height) / kReferenceDiagonal;
+  state_.feature_spacing = std::max(
+      1,
+      static_cast<int>(kSpacing * std::sqrt(static_cast<double>(size.area()) / config.max_tracks)));
+  state_.intrinsics = Intrinsics::start(size, config.focal_px);
+  const auto tracks = static_cast<size_t>(per_keyframe(config));
+  state_.tracks.reserve(tracks);
+  front_end_.open(size, config.max_tracks, state_.feature_spacing, config.mask);
+  poses_.reserve(tracks);
+  growth_.reserve(tracks, static_cast<size_t>(config.max_keyframes));
+  bootstrap_.reserve(tracks);
+  zoom_.reserve(tracks);
+  revive_.reserve(static_cast<size_t>(config.max_landmarks), tracks, size);
+  window_ids_.reserve(static_cast<size_t>(config.max_keyframes));
+}
+
+void Mapper::see(const unisim_frame& frame) {
+  frame_ = frame.index;
+  front_end_.see(frame.image, &state_.tracks);
+  if (front_end_.jumped()) tell_zoom(frame_);
+  if (counts_.started == 0) start_.see_frame(front_end_.gray());
+}
+
+/// Once: what follows a zoom, another one too, is of another size anyway.
+void Mapper::tell_zoom(int64_t frame) {
+  if (zoom_told_) return;
+  zoom_told_ = true;
+  if (!remark_.empty()) remark_ += "; ";
+  remark_ += "the camera seems to have zoomed near frame " + std::to_string(frame) +
+             ": poses and depths after it are of another size and bent; film without zoom";
+}
+
+void Mapper::note_followed() {
+  for (int32_t slot = 0; slot < state_.map.landmark_capacity(); ++slot) {
+    state_.map.landmark(slot).followed = false;
+  }
+  for (const int32_t slot : state_.tracks.landmark) state_.map.landmark(slot).followed = true;
+  state_.map.free_abandoned();
+}
+
+void Mapper::observe_tracks(size_t first) {
+  for (size_t i = first; i < state_.tracks.size(); ++i) {
+    state_.map.observe(state_.tracks.landmark[i], state_.tracks.point[i]);
+  }
+}
+
+void Mapper::detect_tracks() {
+  const size_t first = state_.tracks.size();
+  for (const cv::Point2f& p : front_end_.detect(state_.tracks)) {
+    const int32_t slot = state_.map.add_landmark(state_.segment);
+    state_.map.landmark(slot).followed = true;
+    state_.tracks.add(p, front_end_.flow(), slot);
+  }
+  observe_tracks(first);
+}
+
+bool Mapper::add_keyframe(int32_t id) {
+  front_end_.begin_keyframe(&state_.tracks);
+  if (counts_.started == 0) {
+    start_.see_keyframe(state_.tracks, front_end_.sealed(), state_.pixel_scale,
+                        front_end_.current().gray);
+  }
+  note_followed();
+  bool adjusted = false;
+  if (background_.running() && id >= background_.due_at(state_.config.adjust_latency)) {
+    adjusted = background_.merge(&state_);
+  }
+  if (state_.initialised) {
+    track(id);
+  } else {
+    try_start(id);
+  }
+  front_end_.end_keyframe(&state_.tracks);
+  return adjusted;
+}
+
+void Mapper::try_start(int32_t id) {
+  state_.map.push_keyframe(id, state_.segment);
+  state_.segment_start = std::max(state_.segment_start, state_.map.first_id());
+  observe_tracks(0);
+  detect_tracks();
+  state_.posed = 0;
+  const StartOutcome outcome = bootstrap_.attempt(&state_, id, &window_, &growth_, &poses_);
+  if (counts_.started == 0) start_.note_outcome(outcome, state_.tracks.size());
+  if (outcome == StartOutcome::kRotationOnly) ++counts_.rotation_only;
+  if (outcome != StartOutcome::kStarted) return;
+  state_.initialised = true;
+  state_.median_depth = 1;
+  lost_in_row_ = 0;
+  if (++counts_.started == 1 && start_.two_eyes()) remark_ = kTwoEyes;
+  note_motion(id);
+  revive_.store_patches(state_, front_end_.current(), id, &patches_);
+}
+
+void Mapper::track(int32_t id) {
+  if (zoom_.see_keyframe(state_, id, frame_)) tell_zoom(zoom_.begin());
+  FramePose found = poses_.solve_new(state_, id);
+  if (!found.good) {
+    lose(id);
+    return;
+  }
+  Keyframe& newest = state_.map.push_keyframe(id, state_.segment);
+  newest.pose = found.pose;
+  newest.posed = true;
+  ++state_.posed;
+  if (lost_in_row_ > 0) recover(id - 1, found.pose);
+  lost_in_row_ = 0;
+  observe_tracks(0);
+  mark_outliers(&state_, id, 2 * kInlierGate);
+  const size_t before = state_.tracks.size();
+  const int revived = revive_.run(patches_, front_end_.current(), newest.pose, id,
+                                  front_end_.flow(), front_end_.fresh_mask(), &state_);
+  if (revived > 0) {
+    observe_tracks(before);
+    found = poses_.refine(state_, newest.pose);
+    newest.pose = found.pose;
+    mark_outliers(&state_, id, 2 * kInlierGate);
+  }
+  newest.center_sigma = found.center_sigma;
+  detect_tracks();
+  growth_.run(&state_, id);
+  adjust_window(id);
+  note_motion(id);
+  revive_.store_patches(state_, front_end_.current(), id, &patches_);
+  adjust_whole(id);
+}
+
+void Mapper::recover(int32_t id, const CameraPose& near) {
+  if (!state_.map.holds(id)) return;
+  const FramePose found = poses_.solve_old(state_, id, near);
+  if (!found.good) return;
+  Keyframe& lost = state_.map.keyframe(id);
+  lost.pose = found.pose;
+  lost.posed = true;
+  ++state_.posed;
+  mark_outliers(&state_, id, 2 * kInlierGate);
+}
+
+void Mapper::adjust_whole(int32_t id) {
+  if (state_.config.adjust_every == 0 || state_.early() || background_.running()) return;
+  const int32_t held = std::min(state_.posed, state_.map.end_id() - state_.map.first_id());
+  const int32_t gap = std::max(state_.config.adjust_every, held / kWholeGapShare);
+  if (state_.posed < adjusted_posed_ + gap) return;
+  adjusted_posed_ = state_.posed;
+  background_.start(state_, id, kWholeIterations);
+}
+
+void Mapper::lose(int32_t id) {
+  if (++lost_in_row_ >= kMaxLostInRow) {
+    begin_segment(id);
+    try_start(id);
+    return;
+  }
+  state_.map.push_keyframe(id, state_.segment);
+  observe_tracks(0);
+  detect_tracks();
+}
+
+void Mapper::begin_segment(int32_t id) {
+  ++counts_.restarts;
+  ++state_.segment;
+  state_.segment_start = id;
+  state_.initialised = false;
+  state_.posed = 0;
+  adjusted_posed_ = 0;
+  bootstrap_.restart(id);
+  for (size_t i = 0; i < state_.tracks.size(); ++i) {
+    state_.map.landmark(state_.tracks.landmark[i]).followed = false;
+  }
+  for (size_t i = 0; i < state_.tracks.size(); ++i) {
+    const int32_t slot = state_.map.add_landmark(state_.segment);
+    state_.map.landmark(slot).followed = true;
+    state_.tracks.landmark[i] = slot;
+  }
+}
+
+void Mapper::adjust_window(int32_t id) {
+  const bool early = state_.early();
+  const size_t most = early ? kMaxEarlyWindow : static_cast<size_t>(state_.config.window_size);
+  window_ids_.clear();
+  for (int32_t k = id; k >= 0 && window_ids_.size() < most; k = state_.posed_before(k)) {
+    window_ids_.push_back(k);
+  }
+  std::reverse(window_ids_.begin(), window_ids_.end());
+  window_.build(state_, window_ids_.data(), window_ids_.size());
+  window_.solve(early ? kEarlyIterations : kWindowIterations, kWindowTolerance);
+  window_.write_back(&state_);
+  cull(&state_, window_ids_.data(), window_ids_.size(), kInlierGate);
+}
+
+void Mapper::note_motion(int32_t id) {
+  const CameraPose& pose = state_.map.keyframe(id).pose;
+  const int32_t last = state_.posed_before(id);
+  if (last >= 0) {
+    const CameraPose& before = state_.map.keyframe(last).pose;
+    const double baseline = (pose.center() - before.center()).norm();
+    if (angle_between(pose, before) > kTurnRad && baseline < kTurnBaseline * state_.median_depth) {
+      ++counts_.rotation_only;
+    }
+  }
+  for (int32_t k = state_.map.first_id(); k < id; ++k) {
+    const Keyframe& first = state_.map.keyframe(k);
+    if (!first.posed || first.segment != state_.segment) continue;
+    state_.intrinsics.note_rotation(angle_between(pose, first.pose));
+    break;
+  }
+}
+
+FramePose Mapper::frame_pose() {
+  if (!state_.initialised) return {};
+  return poses_.solve_new(state_, state_.map.end_id());
+}
+
+double Mapper::window_sigma(const int32_t* ids, size_t count) {
+  window_.build(state_, ids, count);
+  const BundlePrecision precision = window_.precision(ids, count);
+  return precision.valid && std::isfinite(precision.center_sigma) ? precision.center_sigma : 0;
+}
+
+bool Mapper::finish() {
+  bool changed = background_.running() && background_.merge(&state_);
+  if (!state_.initialised || state_.config.adjust_every == 0) return changed;
+  const int32_t newest = state_.posed_before(state_.map.end_id());
+  for (int round = 0; newest >= 0 && round < kFinalRounds; ++round) {
+    background_.start(state_, newest, kFinalIterations);
+    changed = background_.merge(&state_) || changed;
+  }
+  return changed;
+}
+
+int64_t Mapper::bytes() const {
+  const auto tracks = static_cast<int64_t>(state_.tracks.point.capacity());
+  return state_.map.bytes() + patches_.bytes() + revive_.bytes() + window_.bytes() +
+         background_.bytes() + front_end_.bytes() +
+         tracks * static_cast<int64_t>(3 * sizeof(cv::Point2f) + sizeof(int32_t) + 1);
+}
+
+}  // namespace unisim::geometric

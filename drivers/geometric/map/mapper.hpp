@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// The running map: what is done with each frame and each keyframe, and in which order.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "drivers/geometric/front_end.hpp"
+#include "drivers/geometric/image/patch_store.hpp"
+#include "drivers/geometric/map/background_adjustment.hpp"
+#include "drivers/geometric/map/keyframe_pose.hpp"
+#include "drivers/geometric/map/landmark_growth.hpp"
+#include "drivers/geometric/map/map_adjustment.hpp"
+#include "drivers/geometric/map/revive.hpp"
+#include "drivers/geometric/map/state.hpp"
+#include "drivers/geometric/start/bootstrap.hpp"
+#include "drivers/geometric/zoom/zoom_watch.hpp"
+
+namespace unisim::geometric {
+
+/// Counts of a whole run.
+struct MapperCounts {
+  int32_t restarts = 0;
+  int32_t rotation_only = 0;
+  int32_t started = 0;  ///< segments that found a start
+};
+
+class Mapper {
+ public:
+  Mapper(const unisim_geometric_config& config, const cv::Size& size);
+
+  void see(const unisim_frame& frame);
+  TrackMotion motion() { return front_end_.motion(state_.tracks); }
+  /// The frame seen last is keyframe `id`. @return true when the whole state has been adjusted anew
+  bool add_keyframe(int32_t id);
+  /// Pose of the frame seen last.
+  FramePose frame_pose();
+  /// Adjusts the whole state one last time. @return true when it changed
+  bool finish();
+  /// Something worth telling since the last call, empty: nothing.
+  std::string take_remark() { return std::exchange(remark_, std::string()); }
+  /// Precision of a window cut from the present state; 0 when not known.
+  double window_sigma(const int32_t* ids, size_t count);
+
+  /// Keyframes spread over the last adjustment of the whole state, and their precision.
+  const std::vector<int32_t>& spread() const { return background_.spread(); }
+  double spread_sigma() const { return background_.spread_sigma(); }
+
+  const State& state() const { return state_; }
+  const MapperCounts& counts() const { return counts_; }
+  const StartStatistics& start_statistics() const { return start_; }
+  int64_t bytes() const;
+
+ private:
+  void tell_zoom(int64_t frame);
+  void note_followed();
+  void observe_tracks(size_t first);
+  void detect_tracks();
+  void try_start(int32_t id);
+  void track(int32_t id);
+  void lose(int32_t id);
+  /// Poses a keyframe that was lost when it was new, after a later one has been found.
+  void recover(int32_t id, const CameraPose& near);
+  void begin_segment(int32_t id);
+  void adjust_window(int32_t id);
+  void adjust_whole(int32_t id);
+  void note_motion(int32_t id);
+
+  State state_;
+  FrontEnd front_end_;
+  KeyframePose poses_;
+  LandmarkGrowth growth_;
+  Bootstrap bootstrap_;
+  PatchStore patches_;
+  Revive revive_;
+  ZoomWatch zoom_;
+  MapAdjustment window_;
+  BackgroundAdjustment background_;
+  std::vector<int32_t> window_ids_;
+  MapperCounts counts_;
+  StartStatistics start_;  // until the first start
+  std::string remark_;
+  int64_t frame_ = 0;  // index of the frame seen last
+  bool zoom_told_ = false;
+  int lost_in_row_ = 0;
+  int32_t adjusted_posed_ = 0;  // keyframes posed when the whole state was last adjusted
+};
+
+}  // namespace unisim::geometric

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// Finds landmarks again that went out of sight.
+#include "drivers/geometric/map/revive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+
+#include "drivers/geometric/image/frame_tracker.hpp"
+
+namespace unisim::geometric {
+
+namespace {
+constexpr int kTile = kPatchSide;
+constexpr int kLevels = 1;
+constexpr int kMinSupport = 3;
+constexpr float kSearchMargin = 12.0F;
+constexpr float kAcceptMargin = 10.0F;
+constexpr double kMaxLogScale = 0.35;  // between the depths of patch and frame
+constexpr double kMaxViewAngle = 0.6;  // rad
+constexpr double kViewAngleUnit = 0.5;
+constexpr double kMaxRoll = 0.35;  // rad
+constexpr double kMaxBackwardError = 1.0;
+constexpr double kMaxDistance = 15.0;  // pixels at the reference diagonal
+constexpr double kMinCorrelation = 0.7;
+constexpr int kCorrelationSide = 13;
+constexpr double kOccupied = 0.5;  // of the feature spacing
+constexpr double kCrowded = 0.35;
+constexpr double kNewViewCost = 0.5;  // a patch is kept when no kept one is nearer in view
+constexpr double kNoView = 1e9;
+
+/// Difference of two views of a point: 0 the same, kNoView beyond what a patch can bridge.
+double view_difference(const CameraPose& a, const CameraPose& b, const Eigen::Vector3d& point) {
+  const double depth_a = a.apply(point).z();
+  const double depth_b = b.apply(point).z();
+  if (!(depth_a > kMinDepth) || !(depth_b > kMinDepth)) return kNoView;
+  const double scale = std::abs(std::log(depth_a / depth_b));
+  const double cosine = (point - a.center()).normalized().dot((point - b.center()).normalized());
+  const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+  const Eigen::Matrix3d turn = b.R * a.R.transpose();
+  const double roll = std::abs(std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1)));
+  if (!(scale < kMaxLogScale && angle < kMaxViewAngle && roll < kMaxRoll)) return kNoView;
+  return scale / kMaxLogScale + angle / kViewAngleUnit + roll / kMaxRoll;
+}
+
+double correlation(const cv::Mat& a, const cv::Point2f& at_a, const cv::Mat& b,
+                   const cv::Point2f& at_b) {
+  const cv::Size side(kCorrelationSide, kCorrelationSide);
+  cv::Mat p;
+  cv::Mat q;
+  cv::getRectSubPix(a, side, at_a, p, CV_32F);
+  cv::getRectSubPix(b, side, at_b, q, CV_32F);
+  cv::Scalar mean_p, mean_q, sigma_p, sigma_q;
+  cv::meanStdDev(p, mean_p, sigma_p);
+  cv::meanStdDev(q, mean_q, sigma_q);
+  const double covariance = p.dot(q) / side.area() - mean_p[0] * mean_q[0];
+  return covariance / std::max(1e-6, sigma_p[0] * sigma_q[0]);
+}
+
+}  // namespace
+
+void Revive::reserve(size_t landmarks, size_t tries, const cv::Size& size) {
+  candidates_.reserve(landmarks);
+  for (auto* points : {&from_, &to_, &back_}) points->reserve(tries);
+  for (auto* flags : {&found_, &found_back_}) flags->reserve(tries);
+  error_.reserve(tries);
+  atlas_.gray.create(size, CV_8UC1);
+  atlas_.gray.setTo(0);
+}
+
+void Revive::collect(const PatchStore& patches, const CameraPose& pose, int32_t keyframe,
+                     const cv::Mat& occupied, const State& state) {
+  candidates_.clear();
+  for (int32_t slot = 0; slot < state.map.landmark_capacity(); ++slot) {
+    const Landmark& mark = state.map.landmark(slot);
+    if (mark.state != LandmarkState::kPlaced || mark.soft || mark.followed) continue;
+    if (mark.segment != state.segment) continue;
+    if (mark.last.keyframe < keyframe - state.config.revive_age) continue;
+    Eigen::Vector2d pixel;
+    if (!state.intrinsics.camera.project(pose.apply(mark.position), &pixel)) continue;
+    const cv::Point2f expected(static_cast<float>(pixel.x()), static_cast<float>(pixel.y()));
+    if (!inside_image(expected, state.size, kSearchMargin)) continue;
+    if (occupied.at<uint8_t>(cv::Point(expected))) continue;
+    if (state.map.support(slot) < kMinSupport) continue;
+    Candidate best{slot, -1, kNoView, expected};
+    for (int v = 0; v < kPatchesPerLandmark; ++v) {
+      const PatchView& view = patches.view(slot, v);
+      if (view.generation != mark.generation || !state.map.holds(view.keyframe)) continue;
+      const double cost =
+          view_difference(state.map.keyframe(view.keyframe).pose, pose, mark.position);
+      if (cost < best.cost) {
+        best.cost = cost;
+        best.patch = v;
+      }
+    }
+    if (best.patch >= 0) candidates_.push_back(best);
+  }
+  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+    return a.cost != b.cost ? a.cost < b.cost : a.landmark < b.landmark;
+  });
+  const auto limit = static_cast<size_t>(state.config.revive_tries);
+  if (candidates_.size() > limit) candidates_.resize(limit);
+}
+
+void Revive::fill_atlas(const PatchStore& patches, size_t first, size_t count) {
+  const int columns = atlas_.gray.cols / kTile;
+  from_.clear();
+  to_.clear();
+  for (size_t j = 0; j < count; ++j) {
+    const Candidate& candidate = candidates_[first + j];
+    const int left = static_cast<int>(j) % columns * kTile;
+    const int top = static_cast<int>(j) / columns * kTile;
+    patches.pixels(candidate.landmark, candidate.patch)
+        .copyTo(atlas_.gray(cv::Rect(left, top, kTile, kTile)));
+    const cv::Point2f& offset = patches.view(candidate.landmark, candidate.patch).offset;
+    const cv::Point middle(left + kTile / 2, top + kTile / 2);
+    from_.push_back(cv::Point2f(middle) + offset);
+    to_.push_back(candidate.expected);
+  }
+  cv::buildOpticalFlowPyramid(atlas_.gray, atlas_.pyramid, cv::Size(kTrackWindow, kTrackWindow),
+                              kLevels, true);
+}
+
+bool Revive::accept(size_t j, const Candidate& candidate, const PreparedImage& current,
+                    double pixel_scale) const {
+  return found_[j] && found_back_[j] && cv::norm(back_[j] - from_[j]) <= kMaxBackwardError &&
+         inside_image(to_[j], current.gray.size(), kAcceptMargin) &&
+         cv::norm(to_[j] - candidate.expected) <= kMaxDistance * pixel_scale &&
+         correlation(atlas_.gray, from_[j], current.gray, to_[j]) >= kMinCorrelation;
+}
+
+int Revive::run(const PatchStore& patches, const PreparedImage& current, const CameraPose& pose,
+                int32_t keyframe, const cv::Point2f& flow, cv::Mat* mask, State* state) {
+  const int reach = std::max(2, static_cast<int>(kOccupied * state->feature_spacing));
+  for (const cv::Point2f& p : state->tracks.point) {
+    cv::circle(*mask, cv::Point(p), reach, cv::Scalar(255), -1);
+  }
+  collect(patches, pose, keyframe, *mask, *state);
+  const size_t tiles =
+      static_cast<size_t>(atlas_.gray.cols / kTile) * static_cast<size_t>(atlas_.gray.rows / kTile);
+  const cv::Size window(kTrackWindow, kTrackWindow);
+  int added = 0;
+  for (size_t first = 0; tiles > 0 && first < candidates_.size(); first += tiles) {
+    const size_t count = std::min(tiles, candidates_.size() - first);
+    fill_atlas(patches, first, count);
+    back_ = from_;
+    cv::calcOpticalFlowPyrLK(atlas_.pyramid, current.pyramid, from_, to_, found_, error_, window,
+                             kLevels, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW);
+    cv::calcOpticalFlowPyrLK(current.pyramid, atlas_.pyramid, to_, back_, found_back_, error_,
+                             window, kLevels, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW);
+    for (size_t j = 0; j < count; ++j) {
+      const Candidate& candidate = candidates_[first + j];
+      if (!accept(j, candidate, current, state->pixel_scale)) continue;
+      const cv::Point at(to_[j]);
+      if (mask->at<uint8_t>(at)) continue;
+      const int crowd = std::max(2, static_cast<int>(kCrowded * state->feature_spacing));
+      cv::circle(*mask, at, crowd, cv::Scalar(255), -1);
+      state->tracks.add(to_[j], flow, candidate.landmark);
+      state->map.landmark(candidate.landmark).followed = true;
+      ++added;
+    }
+  }
+  return added;
+}
+
+void Revive::store_patches(const State& state, const PreparedImage& current, int32_t keyframe,
+                           PatchStore* patches) const {
+  const CameraPose& pose = state.map.keyframe(keyframe).pose;
+  for (size_t i = 0; i < state.tracks.size(); ++i) {
+    const int32_t slot = state.tracks.landmark[i];
+    const Landmark& mark = state.map.landmark(slot);
+    if (mark.state != LandmarkState::kPlaced || mark.soft) continue;
+    if (!inside_image(state.tracks.point[i], state.size, kAcceptMargin)) continue;
+    int oldest = 0;
+    bool known = false;
+    for (int v = 0; v < kPatchesPerLandmark; ++v) {
+      const PatchView& view = patches->view(slot, v);
+      const bool usable = view.generation == mark.generation && state.map.holds(view.keyframe);
+      const int32_t age = usable ? view.keyframe : -1;
+      const PatchView& other = patches->view(slot, oldest);
+      const bool other_usable =
+          other.generation == mark.generation && state.map.holds(other.keyframe);
+      if (age < (other_usable ? other.keyframe : -1)) oldest = v;
+      if (usable && view_difference(state.map.keyframe(view.keyframe).pose, pose, mark.position) <
+                        kNewViewCost) {
+        known = true;
+      }
+    }
+    if (!known) {
+      patches->store(slot, oldest, mark.generation, keyframe, current.gray, state.tracks.point[i]);
+    }
+  }
+}
+
+int64_t Revive::bytes() const {
+  return static_cast<int64_t>(candidates_.capacity() * sizeof(Candidate)) +
+         prepared_image_bytes(atlas_.gray.cols, atlas_.gray.rows);
+}
+
+}  // namespace unisim::geometric

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Finds landmarks again that went out of sight: projected into the image, then followed from a
+// stored patch. They hold the scale over time better than anything else.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "drivers/geometric/image/patch_store.hpp"
+#include "drivers/geometric/image/prepared_image.hpp"
+#include "drivers/geometric/map/state.hpp"
+
+namespace unisim::geometric {
+
+class Revive {
+ public:
+  void reserve(size_t landmarks, size_t tries, const cv::Size& size);
+
+  /// Adds tracks for landmarks found in `current`, the image of a frame with this pose.
+  /// @param mask set where none may be; changed  @param flow start velocity of the new tracks
+  /// @return number of tracks added at the end of the list
+  int run(const PatchStore& patches, const PreparedImage& current, const CameraPose& pose,
+          int32_t keyframe, const cv::Point2f& flow, cv::Mat* mask, State* state);
+
+  /// Keeps patches of the tracked landmarks whose view is unlike those kept so far.
+  void store_patches(const State& state, const PreparedImage& current, int32_t keyframe,
+                     PatchStore* patches) const;
+
+  int64_t bytes() const;
+
+ private:
+  struct Candidate {
+    int32_t landmark;
+    int patch;
+    double cost;  // of the difference in view, 0: same
+    cv::Point2f expected;
+  };
+  void collect(const PatchStore& patches, const CameraPose& pose, int32_t keyframe,
+               const cv::Mat& occupied, const State& state);
+  void fill_atlas(const PatchStore& patches, size_t first, size_t count);
+  bool accept(size_t j, const Candidate& candidate, const PreparedImage& current,
+              double pixel_scale) const;
+
+  std::vector<Candidate> candidates_;
+  PreparedImage atlas_;
+  std::vector<cv::Point2f> from_;
+  std::vector<cv::Point2f> to_;
+  std::vector<cv::Point2f> back_;
+  std::vector<uint8_t> found_;
+  std::vector<uint8_t> found_back_;
+  std::vector<float> error_;
+};
+
+}  // namespace unisim::geometric

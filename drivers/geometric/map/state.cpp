@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Outlier rules of the running state.
+#include "drivers/geometric/map/state.hpp"
+
+#include <limits>
+
+namespace unisim::geometric {
+
+namespace {
+constexpr int kMaxFailures = 2;
+
+void cull_landmark(State* state, int32_t slot, double gate) {
+  Landmark& mark = state->map.landmark(slot);
+  int good = 0;
+  state->map.for_each_observation(slot, [&](const ObservationRef& ref, Observation& seen) {
+    const Keyframe& from = state->map.keyframe(ref.keyframe);
+    if (!from.posed || seen.outlier) return;
+    if (reprojection_error(*state, seen, from, mark.position) > gate) {
+      seen.outlier = true;
+    } else {
+      ++good;
+    }
+  });
+  if (good >= 2) return;
+  mark.soft = false;
+  if (++mark.failures >= kMaxFailures) {
+    mark.state = LandmarkState::kRefused;
+    return;
+  }
+  mark.state = LandmarkState::kCandidate;
+  state->map.for_each_observation(
+      slot, [](const ObservationRef&, Observation& seen) { seen.outlier = false; });
+}
+
+}  // namespace
+
+double reprojection_error(const State& state, const Observation& seen, const Keyframe& from,
+                          const Eigen::Vector3d& position) {
+  Eigen::Vector2d at;
+  const CameraModel& camera = state.intrinsics.camera;
+  if (!camera.project_undistorted(from.pose.apply(position), &at)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double error = (at - camera.undistort(seen.pixel())).norm();
+  return error >= 0 ? error : std::numeric_limits<double>::infinity();
+}
+
+void mark_outliers(State* state, int32_t keyframe, double gate) {
+  const Keyframe& from = state->map.keyframe(keyframe);
+  for (int32_t i = 0; i < from.observations; ++i) {
+    Observation& seen = state->map.observation(ObservationRef{keyframe, i});
+    if (seen.landmark < 0) continue;
+    const Landmark& mark = state->map.landmark(seen.landmark);
+    if (mark.state != LandmarkState::kPlaced) continue;
+    seen.outlier =
+        reprojection_error(*state, seen, from, mark.position) > gate * state->pixel_scale;
+  }
+}
+
+void cull(State* state, const int32_t* keyframes, size_t count, double gate) {
+  for (size_t k = 0; k < count; ++k) {
+    const Keyframe& from = state->map.keyframe(keyframes[k]);
+    for (int32_t i = 0; i < from.observations; ++i) {
+      const int32_t slot = state->map.observation(keyframes[k], i).landmark;
+      if (slot < 0 || state->map.landmark(slot).state != LandmarkState::kPlaced) continue;
+      cull_landmark(state, slot, gate * state->pixel_scale);
+    }
+  }
+}
+
+}  // namespace unisim::geometric

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// What is known of the camera, and which of its numbers the images can tell at present.
+#include "drivers/geometric/start/intrinsics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unisim::geometric {
+
+namespace {
+constexpr double kStartFocal = 0.85;  // of the longer side
+constexpr double kStartSigma = 0.3;   // of log focal length
+constexpr double kK1Sigma = 0.02;
+constexpr double kK1Wide = 0.05;  // beyond what lenses have that are not meant to be wide
+// rad. Freed later, the focal length of a wide lens has run away to explain what the lens bends.
+constexpr double kK1MinRotation = 0.05;
+constexpr double kMinFocal = 0.3;  // of the image width
+constexpr double kMaxFocal = 3.0;
+}  // namespace
+
+Intrinsics Intrinsics::start(const cv::Size& size, double focal_px) {
+  Intrinsics out;
+  out.focal_known = focal_px > 0;
+  out.start_focal = out.focal_known ? focal_px : kStartFocal * std::max(size.width, size.height);
+  out.camera.focal_px = out.start_focal;
+  out.camera.cx = size.width / 2.0 - 0.5;
+  out.camera.cy = size.height / 2.0 - 0.5;
+  return out;
+}
+
+bool Intrinsics::k1_observable() const { return turned_rad >= kK1MinRotation; }
+
+void Intrinsics::note_rotation(double angle_rad) { turned_rad = std::max(turned_rad, angle_rad); }
+
+void Intrinsics::give(bool early, BundleIntrinsics* out) const {
+  out->set_model(camera);
+  out->free_focal = !focal_known;
+  out->free_k1 = k1_observable();
+  out->log_focal_mean = std::log(start_focal);
+  out->log_focal_sigma = early ? kStartSigma : 0.0;
+  out->k1_mean = 0.0;
+  // A heavy tail towards barrel distortion, which wide lenses have: weak evidence, as in straight
+  // driving, is held near 0, strong evidence pays little for going far. No lens goes far the other
+  // way.
+  out->k1_sigma = std::hypot(kK1Sigma, std::max(0.0, camera.k1 - kK1Wide));
+}
+
+void Intrinsics::take(const BundleIntrinsics& in, const cv::Size& size) {
+  const CameraModel model = in.model();
+  if (!std::isfinite(model.focal_px) || !std::isfinite(model.k1)) return;
+  camera.k1 = model.k1;
+  if (focal_known) return;
+  camera.focal_px = std::clamp(model.focal_px, kMinFocal * size.width, kMaxFocal * size.width);
+}
+
+}  // namespace unisim::geometric
