@@ -8,6 +8,7 @@ install(TARGETS unisim unisim_static EXPORT unisim-targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT unisim)
 install(FILES
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/config.h
+  ${PROJECT_SOURCE_DIR}/capi/include/unisim/places.h
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/results.h
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/types.h
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/unisim.h

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "unisim/places.h"
 #include "unisim/unisim.h"
 
 namespace unisim {
@@ -65,6 +66,14 @@ struct FirstSize<unisim_loop_info> {
 template <>
 struct FirstSize<unisim_session_info> {
   static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_session_info, arena_peak_bytes);
+};
+template <>
+struct FirstSize<unisim_places_config> {
+  static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_places_config, same_place);
+};
+template <>
+struct FirstSize<unisim_places_question> {
+  static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_places_question, descriptor);
 };
 
 #undef UNISIM_FIRST_SIZE

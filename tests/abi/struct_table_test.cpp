@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "tests/support/catch.hpp"
+#include "unisim/places.h"
 #include "unisim/unisim.h"
 
 // The table holds for LP64; other data models have their own pointers and paddings.
@@ -196,6 +197,24 @@ AT(unisim_loop_info, submap_id, 4);
 AT(unisim_loop_info, state, 8);
 AT(unisim_loop_info, condensed, 12);
 AT(unisim_loop_info, residual, 16);
+
+SIZE(unisim_places_config, 24);
+AT(unisim_places_config, struct_size, 0);
+AT(unisim_places_config, capacity, 4);
+AT(unisim_places_config, dimension, 8);
+AT(unisim_places_config, reserved, 12);
+AT(unisim_places_config, same_place, 16);
+
+SIZE(unisim_places_question, 24);
+AT(unisim_places_question, struct_size, 0);
+AT(unisim_places_question, id, 4);
+AT(unisim_places_question, gap, 8);
+AT(unisim_places_question, spread, 12);
+AT(unisim_places_question, descriptor, 16);
+
+SIZE(unisim_places_match, 8);
+AT(unisim_places_match, id, 0);
+AT(unisim_places_match, score, 4);
 
 TEST_CASE("numbers of statuses, bits and states never move") {
   CHECK(UNISIM_OK == 0);

@@ -2,10 +2,12 @@
 // From create to destroy the library asks the heap for nothing.
 #include <cstdlib>
 #include <memory>
+#include <vector>
 
 #include "tests/alloc/malloc_counter.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_session.hpp"
+#include "unisim/places.h"
 
 using namespace unisim::test;
 
@@ -76,4 +78,39 @@ TEST_CASE("twenty thousand keyframes in a sliding window make no heap call") {
   CHECK(info.keyframes == 20000);
   CHECK(info.first_keyframe > 18000);
   CHECK(info.retired_keyframes > 10000);
+}
+
+TEST_CASE("an index of places makes no heap call") {
+  unisim_places_config config;
+  REQUIRE(unisim_places_config_init(&config, sizeof config) == UNISIM_OK);
+  config.capacity = 20;
+  config.dimension = 64;
+  config.same_place = 0.0;
+  size_t size = 0;
+  REQUIRE(unisim_places_arena_size(&config, &size) == UNISIM_OK);
+  std::vector<unsigned char> arena(size);
+  std::vector<int8_t> descriptor(64, 1);
+  unisim_places_question question = {};
+  question.struct_size = sizeof question;
+  question.descriptor = descriptor.data();
+  unisim_places_match matches[8];
+  int32_t evictions = 0;
+  int32_t failures = 0;
+  const int64_t before = heap_calls();
+  unisim_places* places = nullptr;
+  failures += unisim_places_create(&places, &config, arena.data(), size) != UNISIM_OK;
+  for (int32_t id = 0; id < 200; ++id) {
+    for (size_t k = 0; k < descriptor.size(); ++k) {
+      descriptor[k] = static_cast<int8_t>((id + static_cast<int32_t>(k * k)) % 100 + 1);
+    }
+    int32_t evicted = -1;
+    int32_t count = 0;
+    failures += unisim_places_add(places, id, descriptor.data(), &evicted) != UNISIM_OK;
+    failures += unisim_places_query(places, &question, matches, 8, &count) != UNISIM_OK;
+    evictions += evicted >= 0 ? 1 : 0;
+  }
+  unisim_places_destroy(places);
+  CHECK(heap_calls() == before);
+  CHECK(failures == 0);
+  CHECK(evictions == 180);
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// unisim-bench: times and memory of the solver, of a session on a long walk, of depth ratios.
+// unisim-bench: times and memory of the solver, of a session on a long walk, of depth ratios and
+// places.
 #include <CLI/CLI.hpp>
 #include <map>
 #include <string>
 
 #include "drivers/sequence/text_file.hpp"
 #include "tools/bench/depth/depth_command.hpp"
+#include "tools/bench/places/places_command.hpp"
 #include "tools/bench/solver/covariance_command.hpp"
 #include "tools/bench/solver/solver_command.hpp"
 #include "tools/bench/solver/update_command.hpp"
@@ -112,6 +114,15 @@ void add_depth(CLI::App* app, DepthSettings* settings) {
   command->add_flag("--json", settings->json, "one line of JSON");
 }
 
+void add_places(CLI::App* app, PlacesSettings* settings) {
+  CLI::App* command = app->add_subcommand("places", "A search among the places of many keyframes");
+  command->add_option("--keyframes", settings->keyframes, "in the index")
+      ->transform(in_range(Range::whole(1, kMany)));
+  command->add_option("--repeat", settings->repeat, "searches")
+      ->transform(in_range(Range::whole(1, kMany)));
+  command->add_flag("--json", settings->json, "one line of JSON");
+}
+
 int bench(int argc, const char* const* argv) {
   CLI::App app("Times and memory of libunisim; times are CPU time of the process.");
   app.set_version_flag("--version", unisim::replay::version_text());
@@ -127,12 +138,15 @@ int bench(int argc, const char* const* argv) {
   add_window(&app, &walk, &walk_json);
   DepthSettings depth;
   add_depth(&app, &depth);
+  PlacesSettings places;
+  add_places(&app, &places);
   if (!unisim::tools::parse(&app, argc, argv)) return unisim::tools::kExitDone;
   try {
     if (app.got_subcommand("window")) return walk_command(walk, walk_json);
     if (app.got_subcommand("updates")) return update_command(updates);
     if (app.got_subcommand("covariance")) return covariance_command(covariance);
     if (app.got_subcommand("depth")) return depth_command(depth);
+    if (app.got_subcommand("places")) return places_command(places);
     return solver_command(solver);
   } catch (const unisim::sequence::InputError& error) {
     throw unisim::tools::Failure(unisim::tools::kExitInput, error.what());
