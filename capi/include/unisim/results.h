@@ -54,7 +54,9 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_trajectory(const unisim_ses
  *  first keyframe of a segment, which is held. Behind a sliding window it is that of the submap
  *  that carries the keyframe, zero on the first submap. Cost: one factorisation for the first
  *  keyframe asked for, then for each what of the inverse it needs and those before it did not: all
- *  keyframes together take about twice as long as the newest one.
+ *  keyframes together take about twice as long as the newest one. The system is built anew at the
+ *  present poses for it, so the poses of later optimisations differ in their last digits (about
+ *  1e-8) from those of a session that was not asked.
  *  @param session live session
  *  @param keyframe_id as unisim_add_keyframe() gave it
  *  @param[out] covariance 49 values, column-major
