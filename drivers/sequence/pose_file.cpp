@@ -11,6 +11,7 @@ namespace unisim::sequence {
 namespace {
 
 constexpr double kRotationTolerance = 1e-2;
+constexpr double kLargestSeconds = 1e11;  // of a clock, some 3000 years
 
 struct Fields {
   double number[17];
@@ -29,8 +30,19 @@ bool parse_fields(const std::vector<std::string_view>& texts, Fields* fields) {
   return true;
 }
 
+// EuRoC's csv counts nanoseconds: eight columns of it whose time is a fraction, and no number of
+// our century's nanoseconds, are a TUM file with commas, qw last. A line of words says nothing.
+PoseFormat guess_with_commas(const std::string& line) {
+  const auto texts = split_fields(line, true);
+  double time = 0;
+  if (texts.empty() || !parse_number(texts.front(), &time)) return PoseFormat::kAuto;
+  const bool fraction = texts.front().find('.') != std::string_view::npos;
+  const bool tum = texts.size() == 8 && fraction && std::abs(time) < kLargestSeconds;
+  return tum ? PoseFormat::kTum : PoseFormat::kEuroc;
+}
+
 PoseFormat guess_format(const std::string& line) {
-  if (line.find(',') != std::string::npos) return PoseFormat::kEuroc;
+  if (line.find(',') != std::string::npos) return guess_with_commas(line);
   const size_t count = split_fields(line).size();
   if (count == 8) return PoseFormat::kTum;
   if (count == 12 || count == 13) return PoseFormat::kKitti;

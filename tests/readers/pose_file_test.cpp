@@ -31,6 +31,20 @@ TEST_CASE("tum, kitti and euroc lines are told apart") {
   REQUIRE(euroc.poses[0].timestamp_ns == 1403715274312143104);
 }
 
+TEST_CASE("commas alone make no EuRoC file") {
+  const TempFolder folder;
+  const PoseFile tum = read_pose_file(folder.write(
+      "a.csv",
+      "time,tx,ty,tz,qx,qy,qz,qw\n1311868164.363181,1,2,3,0,0,0,1\n1311868164.5,1,2,4,0,0,0,1\n"));
+  REQUIRE(tum.format == PoseFormat::kTum);
+  REQUIRE(tum.poses[0].timestamp_ns == 1311868164363181000);
+  REQUIRE(tum.poses[0].rotation[4] == 1.0);
+  const PoseFile euroc =
+      read_pose_file(folder.write("b.csv", "1403715274312143104,1,2,3,1,0,0,0\n"));
+  REQUIRE(euroc.format == PoseFormat::kEuroc);
+  REQUIRE(euroc.poses[0].rotation[4] == 1.0);
+}
+
 TEST_CASE("lines that are not a pose are counted, not used") {
   const TempFolder folder;
   const PoseFile file = read_pose_file(folder.write("a.txt",

@@ -78,8 +78,8 @@ TEST_CASE("pose files in another unit are read in it, and it is told") {
   REQUIRE(tum.unit == TimeUnit::kNanoseconds);
   REQUIRE(tum.poses[1].timestamp_ns == 1400000000050000000);
   REQUIRE(tum.poses[1].time_s == 1400000000.05);
-  const PoseFile euroc = read_pose_file(
-      folder.write("b.csv", "1400000000.00,1,2,3,1,0,0,0\n1400000000.05,1,2,3,1,0,0,0\n"));
+  const PoseFile euroc = read_pose_file(folder.write(
+      "b.csv", "1400000000.00,1,2,3,1,0,0,0,0,0,0\n1400000000.05,1,2,3,1,0,0,0,0,0,0\n"));
   REQUIRE(euroc.foreign_unit);
   REQUIRE(euroc.poses[1].timestamp_ns == 1400000000050000000);
 }
