@@ -8,7 +8,7 @@
  *  Results are borrowed: valid until the next call of the same function.
  *
  *  Threads. Two groups of functions, in each of them one call at a time:
- *  - front: observe(), keyframe(), two_view(), frame_pose(), message();
+ *  - front: observe(), keyframe(), two_view(), frame_pose(), features(), message();
  *  - back: multi_view(), next_revision(), next_wide_window(), window_message().
  *  With concurrent_windows the groups run beside each other, on two threads; without it all calls
  *  come from one thread. While finish(), info() or destroy() runs, nothing else does. */
@@ -81,6 +81,13 @@ typedef struct unisim_frame_pose {
   int32_t keyframe_id;
 } unisim_frame_pose;
 
+/** Something the predictor follows through the images. */
+typedef struct unisim_feature {
+  float x; /**< pixels, pixel centres at whole numbers */
+  float y;
+  int32_t placed; /**< 1: its place in space is known */
+} unisim_feature;
+
 /** Things worth knowing at the end of a run. */
 typedef struct unisim_predictor_info {
   double focal_px;       /**< last estimate, 0 if none */
@@ -149,6 +156,11 @@ struct unisim_predictor {
   const char* (*window_message)(unisim_predictor* predictor);
 
   void (*destroy)(unisim_predictor* predictor);
+
+  /** What is followed in the frame observed last, for people to look at; optional.
+   *  @param[out] features valid until the next call of a function of the front group
+   *  @return their number */
+  int32_t (*features)(unisim_predictor* predictor, const unisim_feature** features);
 };
 
 #ifdef __cplusplus

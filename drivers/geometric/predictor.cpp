@@ -35,7 +35,8 @@ struct GeometricPredictor {
   int64_t left_out = 0;  // frames that could not be taken
   std::string message;
   std::string left_out_why;
-  std::string no_start;  // what info() says of a run without a start
+  std::string no_start;                  // what info() says of a run without a start
+  std::vector<unisim_feature> features;  // of features()
 };
 
 GeometricPredictor* self(unisim_predictor* predictor) {
@@ -187,6 +188,23 @@ int frame_pose(unisim_predictor* predictor, unisim_frame_pose* out) {
   });
 }
 
+int32_t features(unisim_predictor* predictor, const unisim_feature** out) {
+  const int status = guarded(predictor, [&](GeometricPredictor* me) {
+    me->features.clear();
+    if (!me->mapper) return UNISIM_PREDICTION_OK;
+    const Tracks& tracks = me->mapper->state().tracks;
+    const LandmarkMap& map = me->mapper->state().map;
+    for (size_t i = 0; i < tracks.size(); ++i) {
+      const bool placed = map.landmark(tracks.landmark[i]).state == LandmarkState::kPlaced;
+      me->features.push_back({tracks.point[i].x, tracks.point[i].y, placed ? 1 : 0});
+    }
+    return UNISIM_PREDICTION_OK;
+  });
+  *out = self(predictor)->features.data();
+  return status == UNISIM_PREDICTION_OK ? static_cast<int32_t>(self(predictor)->features.size())
+                                        : 0;
+}
+
 int finish(unisim_predictor* predictor) {
   return guarded(predictor, [&](GeometricPredictor* me) {
     if (me->mapper && me->mapper->finish()) me->predictions->state_adjusted();
@@ -268,6 +286,7 @@ unisim_predictor* unisim_geometric_create(const unisim_geometric_config* config,
       table.info = g::info;
       table.message = g::message;
       table.destroy = g::destroy;
+      table.features = g::features;
       return &made.release()->table;
     }
   } catch (const std::exception& error) {

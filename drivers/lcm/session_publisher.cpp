@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <thread>
 
-#include "drivers/lcm/submap_points.hpp"
 #include "drivers/pipeline/similarity.hpp"
+#include "drivers/pipeline/stages.hpp"
+#include "drivers/pipeline/submap_points.hpp"
 
 namespace unisim::lcm {
 namespace {
@@ -19,19 +20,12 @@ constexpr std::chrono::milliseconds kChunkPause(5);
 
 SessionPublisher::SessionPublisher(unisim_lcm_publisher* publisher,
                                    const SessionPublisherOptions& options)
-    : publisher_(publisher), options_(options), book_(options.folder), retired_(options.folder) {
+    : publisher_(publisher), options_(options), history_(options.folder) {
   poses_.reserve(UNISIM_LCM_CHUNK_POSES);
 }
 
-/// Latest pose of a keyframe, kept by the session or not. false: it has none.
 bool SessionPublisher::read_pose(int32_t keyframe, unisim_pose* pose) const {
-  *pose = {};
-  pose->struct_size = sizeof *pose;
-  const unisim_session* session = pipeline_->session();
-  const unisim_status status = unisim_get_pose(session, keyframe, pose);
-  if (status != UNISIM_ERR_RETIRED) return status == UNISIM_OK;
-  *pose = retired_.get(keyframe);
-  return pose->struct_size > 0 && book_.find(session, keyframe, &pose->T_world_kf);
+  return history_.read(pipeline_->session(), keyframe, pose);
 }
 
 bool SessionPublisher::read_info(unisim_session_info* info) const {
@@ -74,7 +68,7 @@ void SessionPublisher::send_points(int32_t submap_id, const unisim_window_predic
       !read_pose(window.keyframe_ids[window.count / 2], &anchor)) {
     return;
   }
-  sample_points(window, image_width_, image_height_, options_.points_per_submap, &xyz_);
+  pipeline::sample_points(window, image_width_, image_height_, options_.points_per_submap, &xyz_);
   if (xyz_.empty()) return;
   unisim_lcm_points points{};
   points.struct_size = sizeof points;
@@ -135,11 +129,7 @@ void SessionPublisher::send_optimized_keyframes(int32_t map_revision) {
 }
 
 void SessionPublisher::on_retired(const unisim_retired& retired, const unisim_pose* pose) {
-  book_.take(retired);
-  if (pose == nullptr) return;
-  unisim_pose kept = *pose;
-  kept.segment = retired.segment;
-  retired_.put(retired.keyframe_id, kept);
+  history_.take(retired, pose);
 }
 
 void SessionPublisher::begin_trajectory(int32_t first) {
@@ -209,22 +199,13 @@ void SessionPublisher::send_status(const pipeline::Progress& progress) {
 
 /// Stages that have run, with the names of summary.json.
 void SessionPublisher::fill_stages() {
-  const pipeline::StageTimes& times = pipeline_->result().times;
-  const auto add = [this](const char* name, const pipeline::LatencyHistogram& stage) {
-    if (stage.count() == 0) return;
-    stages_.push_back(
-        {name, stage.count(), stage.percentile_ms(0.5), stage.percentile_ms(0.95), stage.max_ms()});
-  };
   stages_.clear();
-  add("decode", times.decode);
-  add("observe", times.observe);
-  add("keyframe", times.keyframe);
-  add("two_view", times.two_view);
-  add("multi_view", times.multi_view);
-  add("depth_ratio", times.depth_ratio);
-  add("graph", times.graph);
-  add("optimize", times.optimize);
-  add("track_total", times.track_total);
+  for (const pipeline::Stage& stage : pipeline::kStages) {
+    const pipeline::LatencyHistogram& times = pipeline_->result().times.*stage.times;
+    if (times.count() == 0) continue;
+    stages_.push_back({stage.name, times.count(), times.percentile_ms(0.5),
+                       times.percentile_ms(0.95), times.max_ms()});
+  }
 }
 
 void SessionPublisher::finish() {

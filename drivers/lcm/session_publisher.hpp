@@ -10,8 +10,7 @@
 #include "drivers/lcm/publisher.h"
 #include "drivers/pipeline/listener.hpp"
 #include "drivers/pipeline/pipeline.hpp"
-#include "drivers/pipeline/pose_book.hpp"
-#include "drivers/pipeline/temporary_file.hpp"
+#include "drivers/pipeline/pose_history.hpp"
 
 namespace unisim::lcm {
 
@@ -69,8 +68,7 @@ class SessionPublisher : public pipeline::Listener {
   unisim_lcm_publisher* publisher_;
   SessionPublisherOptions options_;
   const pipeline::Pipeline* pipeline_ = nullptr;
-  pipeline::PoseBook book_;
-  pipeline::RecordFile<unisim_pose> retired_;  // as they left the window
+  pipeline::PoseHistory history_;
   int32_t image_width_ = 0;
   int32_t image_height_ = 0;
   int64_t newest_ns_ = 0;  // pose sent last

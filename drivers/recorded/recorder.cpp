@@ -163,6 +163,11 @@ int frame_pose(unisim_predictor* predictor, unisim_frame_pose* out) {
   return status;
 }
 
+int32_t features(unisim_predictor* predictor, const unisim_feature** out) {
+  Recorder& recorder = self(predictor);
+  return recorder.inner->features(recorder.inner, out);
+}
+
 int finish(unisim_predictor* predictor) {
   Recorder& recorder = self(predictor);
   const int status = recorder.inner->finish(recorder.inner);
@@ -228,6 +233,7 @@ void fill_table(Recorder* recorder, unisim_predictor* inner) {
   recorder->message = message;
   recorder->window_message = inner->window_message != nullptr ? window_message : nullptr;
   recorder->destroy = destroy;
+  recorder->features = inner->features != nullptr ? features : nullptr;
 }
 
 /// The predictor that recorders, one in another, hand their calls on to.

@@ -7,7 +7,7 @@
 #include "tests/support/temp_folder.hpp"
 #include "tools/live/options.hpp"
 #include "tools/live/pose_age.hpp"
-#include "tools/live/status_text.hpp"
+#include "tools/live/figures.hpp"
 
 using namespace unisim::live;
 using unisim::pipeline::LivePose;

@@ -11,6 +11,7 @@
 #include "tools/live/pose_age.hpp"
 #include "tools/live/scheduling.hpp"
 #include "tools/live/status_text.hpp"
+#include "tools/live/web/output.hpp"
 #include "tools/replay/inputs.hpp"
 #include "tools/replay/interrupt.hpp"
 #include "tools/replay/run.hpp"
@@ -21,12 +22,16 @@ namespace {
 /// One run: what listens to it lives as long as it does.
 class LiveRun {
  public:
-  explicit LiveRun(const Options& options) : options_(options), status_(&ages_) {}
+  explicit LiveRun(const Options& options)
+      : options_(options), status_(&ages_), web_(options, &ages_) {}
 
   int go(const std::atomic<bool>& stop) {
     replay::Surroundings around;
     around.open = [this] { return open(); };
     around.line = [this](const pipeline::Progress& progress) { return status_(progress); };
+    around.starts = [this](const pipeline::Pipeline& pipeline, unisim_predictor* predictor) {
+      web_.attach(pipeline, predictor);
+    };
     around.ended = [this](const unisim_source* source) { end(source); };
     const int code = replay::run(options_.run, around, stop);
     return code == tools::kExitDone && recording_failed_ ? tools::kExitLimit : code;
@@ -43,6 +48,8 @@ class LiveRun {
       input.source = replay::open_sequence(options_.run, &input.notes);
     }
     input.listeners.push_back(&ages_);
+    if (web_.listener() != nullptr) input.listeners.push_back(web_.listener());
+    input.notes.push_back(web_.note());
     if (!options_.run.out.empty() && options_.record_images) {
       recorder_.emplace(options_.run.out + "/recording", options_.run.force);
       input.listeners.push_back(&*recorder_);
@@ -64,6 +71,7 @@ class LiveRun {
   const Options& options_;
   PoseAge ages_;
   StatusText status_;
+  web::Output web_;
   std::optional<FrameRecorder> recorder_;
   bool recording_failed_ = false;
 };

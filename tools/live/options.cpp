@@ -107,6 +107,16 @@ void add_camera_options(CLI::App* app, Options* options, Given* given) {
 void add_process_options(CLI::App* app, Options* options) {
   app->add_flag("--record-images,!--no-record-images", options->record_images,
                 "with --out: keep the images in DIR/recording, to replay the run (default)");
+  CLI::Option* const web = app->add_option(
+      "--web", options->web,
+      "show the run on a page at this PORT of this machine, 0: any that is free; or at "
+      "ADDRESS:PORT, such as 0.0.0.0:8080, for others too");
+  web->type_name("[ADDRESS:]PORT");
+  app->add_option("--web-token", options->web_token,
+                  "secret that the page asks for, as ?token=...; or in UNISIM_WEB_TOKEN, where "
+                  "other users do not see it")
+      ->envname("UNISIM_WEB_TOKEN")
+      ->needs(web);
   const char* const group = "Process";
   app->add_option("--priority", options->scheduling.priority,
                   "real-time priority, 1 to 99 (default: the usual sharing)")

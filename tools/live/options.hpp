@@ -18,6 +18,8 @@ struct Options {
   replay::Options run;  ///< out "": no results; sequence, format: of a recording played live
   std::string device;   ///< as given: camera or recording
   bool list = false;
+  std::optional<std::string> web;  ///< where to serve the page: PORT or ADDRESS:PORT
+  std::string web_token;
   bool record_images = true;  ///< with run.out: what a replay of this run needs
   std::string pixel_format = "auto";
   unisim_v4l2_config camera;  ///< its strings are those above

@@ -4,6 +4,7 @@
 
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 
 #include <cerrno>
 #include <cstring>
@@ -49,6 +50,14 @@ void apply(const Scheduling& scheduling) {
     fail("--lock-memory",
          "allow it by `ulimit -l unlimited`, or LimitMEMLOCK= of its systemd unit");
   }
+}
+
+void give_way() {
+  // Neither can fail for a thread that asks for less than it has.
+  const sched_param usual{};
+  sched_setscheduler(0, SCHED_OTHER, &usual);
+  constexpr int kNice = 10;
+  setpriority(PRIO_PROCESS, 0, kNice);
 }
 
 }  // namespace unisim::live

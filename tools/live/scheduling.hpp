@@ -19,4 +19,7 @@ struct Scheduling {
 /// with the command that lets it; (2): no such processor.
 void apply(const Scheduling& scheduling);
 
+/// This thread, and those it starts, run when the tracking leaves time: usual sharing, less of it.
+void give_way();
+
 }  // namespace unisim::live

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "drivers/pipeline/stages.hpp"
 #include "tools/replay/report/local_scale.hpp"
 #include "tools/replay/version.hpp"
 
@@ -143,10 +144,11 @@ void add_protocol(const Run& run, report::ReportData* page) {
 }
 
 void add_tables(const Run& run, report::ReportData* page) {
-  for (const auto& [name, times] : stages(run.result.times)) {
-    if (times->count() == 0) continue;
-    page->timing.push_back({name, times->count(), times->percentile_ms(0.5),
-                            times->percentile_ms(0.95), times->max_ms()});
+  for (const pipeline::Stage& stage : pipeline::kStages) {
+    const pipeline::LatencyHistogram& times = run.result.times.*stage.times;
+    if (times.count() == 0) continue;
+    page->timing.push_back({stage.name, times.count(), times.percentile_ms(0.5),
+                            times.percentile_ms(0.95), times.max_ms()});
   }
   const auto mebibytes = [](double bytes) { return text("%.1f MiB", bytes / (1 << 20)); };
   page->memory = {{"session", mebibytes(static_cast<double>(run.data.session.arena_bytes))},

@@ -19,7 +19,9 @@ Input open_recording(const Options& options) {
 }  // namespace
 
 int replay(const Options& options, const std::atomic<bool>& stop) {
-  return run(options, {[&] { return open_recording(options); }, {}, {}}, stop);
+  Surroundings around;
+  around.open = [&] { return open_recording(options); };
+  return run(options, around, stop);
 }
 
 }  // namespace unisim::replay

@@ -281,6 +281,7 @@ int run(const Options& options, const Surroundings& around, const std::atomic<bo
                               tools::heap_counter());
   prepare(&pipeline);
   lcm.attach(pipeline);
+  if (around.starts) around.starts(pipeline, predictor.get());
   const pipeline::Result& result = pipeline.run();
   progress.finish();
   lcm.finish();

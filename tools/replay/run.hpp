@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drivers/pipeline/listener.hpp"
+#include "drivers/pipeline/pipeline.hpp"
 #include "tools/eval/trajectory.hpp"
 #include "tools/replay/inputs.hpp"
 #include "tools/replay/options.hpp"
@@ -27,6 +28,8 @@ struct Input {
 struct Surroundings {
   std::function<Input()> open;  ///< called once the folder of results is ours; throws Failure
   ProgressLine::Text line;      ///< of the progress; empty: the usual one
+  /// Before the first frame, with what will run; may be empty.
+  std::function<void(const pipeline::Pipeline&, unisim_predictor*)> starts;
   std::function<void(const unisim_source*)> ended;  ///< after the last frame; may be empty
 };
 

@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "drivers/onnx/onnx.h"
+#include "drivers/pipeline/stages.hpp"
 #include "tools/replay/version.hpp"
 
 namespace unisim::replay {
@@ -77,7 +78,9 @@ Json memory_json(const Run& run) {
 
 Json timing_json(const pipeline::StageTimes& times) {
   Json json;
-  for (const auto& [name, stage] : stages(times)) json[name] = stage_json(*stage);
+  for (const pipeline::Stage& stage : pipeline::kStages) {
+    json[stage.name] = stage_json(times.*stage.times);
+  }
   return json;
 }
 
@@ -132,21 +135,6 @@ std::string score_line(const Run& run) {
 std::string keyframe_choice(const Options& options) {
   const int32_t stride = options.settings.pipeline.keyframes.stride;
   return stride > 0 ? "every " + std::to_string(stride) : "by motion";
-}
-
-std::vector<std::pair<std::string, const pipeline::LatencyHistogram*>> stages(
-    const pipeline::StageTimes& times) {
-  return {{"decode", &times.decode},
-          {"observe", &times.observe},
-          {"keyframe", &times.keyframe},
-          {"two_view", &times.two_view},
-          {"multi_view", &times.multi_view},
-          {"depth_ratio", &times.depth_ratio},
-          {"descriptor", &times.descriptor},
-          {"graph", &times.graph},
-          {"read", &times.read},
-          {"optimize", &times.optimize},
-          {"track_total", &times.track_total}};
 }
 
 int64_t process_peak_bytes() {

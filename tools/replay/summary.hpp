@@ -30,10 +30,6 @@ double coverage(const RunData& data);
 /// "every 5" or "by motion".
 std::string keyframe_choice(const Options& options);
 
-/// The stages by the names of summary.json, in the order of the work.
-std::vector<std::pair<std::string, const pipeline::LatencyHistogram*>> stages(
-    const pipeline::StageTimes& times);
-
 /// Most memory the process has held.
 int64_t process_peak_bytes();
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A few points of a window, for people and planners.
-#include "drivers/lcm/submap_points.hpp"
+#include "drivers/pipeline/submap_points.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "drivers/pipeline/similarity.hpp"
 
-namespace unisim::lcm {
+namespace unisim::pipeline {
 namespace {
 
 // As the session leaves them out of depth ratios, and map.ply does.
@@ -53,7 +53,7 @@ void sample_points(const unisim_window_prediction& window, int32_t image_width,
   if (!(window.focal_px > 0.0) || window.count <= 0) return;
   const auto width = static_cast<float>(image_width / window.focal_px);
   const auto height = static_cast<float>(image_height / window.focal_px);
-  const unisim_sim3 T_anchor_window = pipeline::inverse(window.T_window_kf[window.count / 2]);
+  const unisim_sim3 T_anchor_window = inverse(window.T_window_kf[window.count / 2]);
   std::vector<Sample> samples;
   for (int32_t view = 0; view < window.count; ++view) {
     const unisim_depth_map& map = window.depth[view];
@@ -63,12 +63,12 @@ void sample_points(const unisim_window_prediction& window, int32_t image_width,
     const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(pixels / share))));
     take_samples(map, step, width, height, &samples);
     drop_least_sure(&samples);
-    const unisim_sim3 T = pipeline::compose(T_anchor_window, window.T_window_kf[view]);
+    const unisim_sim3 T = compose(T_anchor_window, window.T_window_kf[view]);
     for (const Sample& sample : samples) {
       const double depth = sample.depth;
       const unisim_sim3 point = {
           {0.0, 0.0, 0.0, 1.0}, {sample.x * depth, sample.y * depth, depth}, 1.0};
-      for (const double value : pipeline::compose(T, point).t) {
+      for (const double value : compose(T, point).t) {
         xyz->push_back(static_cast<float>(value));
       }
     }
@@ -76,4 +76,4 @@ void sample_points(const unisim_window_prediction& window, int32_t image_width,
   xyz->resize(std::min(xyz->size(), 3 * static_cast<size_t>(most)));
 }
 
-}  // namespace unisim::lcm
+}  // namespace unisim::pipeline

@@ -8,7 +8,7 @@
 
 #include "drivers/predictor.h"
 
-namespace unisim::lcm {
+namespace unisim::pipeline {
 
 /// @param image_width, image_height of the frames, pixels
 /// @param most    points to give
@@ -17,4 +17,4 @@ namespace unisim::lcm {
 void sample_points(const unisim_window_prediction& window, int32_t image_width,
                    int32_t image_height, int32_t most, std::vector<float>* xyz);
 
-}  // namespace unisim::lcm
+}  // namespace unisim::pipeline

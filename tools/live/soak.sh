@@ -1,0 +1,80 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Plays a recording back and forth for a while through unisim-live with all that a robot uses, and says what
+# became of memory, of the age of the poses and of the frames. A trial for people and slow machines, no test.
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+usage: tools/live/soak.sh FOLDER_OF_IMAGES [MINUTES]
+  plays FOLDER_OF_IMAGES/* (sorted, at 30 frames/s) back and forth for MINUTES (30) through unisim-live with
+  --lcm --web --out, somebody looking at the page, and prints a line every half minute and the figures
+  environment: UNISIM_LIVE (build/release/bin/unisim-live), PATTERN (*.color.png), ARGUMENTS of unisim-live
+TEXT
+}
+
+[ $# -ge 1 ] && [ "$1" != --help ] || {
+  usage
+  exit $(($# >= 1 ? 0 : 2))
+}
+images=$(realpath "$1")
+minutes=${2:-30}
+live=${UNISIM_LIVE:-build/release/bin/unisim-live}
+pattern=${PATTERN:-*.color.png}
+work=$(mktemp -d -t unisim-soak.XXXXXX)
+pid=
+watcher=
+clean_up() {
+  [ -z "$watcher" ] || kill "$watcher" 2>/dev/null || true
+  [ -z "$pid" ] || kill "$pid" 2>/dev/null || true
+  rm -rf "$work"
+}
+trap clean_up EXIT
+
+# A sequence of stamps and names: forwards, backwards, forwards, so that the camera never jumps.
+mkdir "$work/loop"
+ln -s "$images" "$work/loop/rgb"
+find "$images/" -maxdepth 1 -name "$pattern" -printf 'rgb/%f\n' | sort >"$work/names"
+[ "$(wc -l <"$work/names")" -ge 100 ] || {
+  echo "soak: $images: fewer than 100 images match $pattern" >&2
+  exit 3
+}
+awk -v frames=$((minutes * 60 * 30)) '
+  { name[NR - 1] = $0 }
+  END {
+    for (k = 0; k < frames; ++k) {
+      at = k % (2 * NR - 2)
+      printf "%.6f %s\n", 1000 + k / 30, name[at < NR ? at : 2 * NR - 2 - at]
+    }
+  }' "$work/names" >"$work/loop/rgb.txt"
+
+read -ra more <<<"${ARGUMENTS:-}"
+"$live" --device "$work/loop" --format tum --out "$work/out" --no-record-images --web 0 \
+  --lcm "udpm://239.255.76.67:7667?ttl=0" "${more[@]}" >"$work/log" 2>&1 &
+pid=$!
+url=
+for _ in $(seq 100); do
+  url=$(sed -n 's/^page: //p' "$work/log")
+  [ -z "$url" ] || break
+  sleep 0.1
+done
+curl -sN "${url}events" >/dev/null &
+watcher=$!
+
+sample() { awk '/VmRSS/ { printf "%.1f MB", $2 / 1000 }' "/proc/$pid/status" 2>/dev/null || true; }
+seconds=0
+while kill -0 "$pid" 2>/dev/null; do
+  sleep 1
+  seconds=$((seconds + 1))
+  if [ $((seconds % 30)) -eq 0 ]; then
+    figures=$(timeout 5 curl -sN --max-time 2 "${url}events" 2>/dev/null | sed -n 's/^data: {"source".*"frames":/frames /p' |
+      sed 's/"//g; s/,stages.*//' | tail -n 1) || true
+    printf '%4d s  memory %s  %s\n' "$seconds" "$(sample)" "$figures"
+  fi
+done
+result=0
+wait "$pid" || result=$?
+pid=
+grep -v '^tracking' "$work/log" | tail -n 25
+echo "unisim-live ended with $result after $seconds s"
+exit "$result"
