@@ -9,21 +9,22 @@ usage() {
 usage: tools/live/soak.sh FOLDER_OF_IMAGES [MINUTES]
   plays FOLDER_OF_IMAGES/* (sorted, at 30 frames/s) back and forth for MINUTES (30) through unisim-live with
   --lcm --web --out, somebody looking at the page, and prints a line every half minute and the figures
-  environment: UNISIM_LIVE (build/release/bin/unisim-live), PATTERN (*.color.png), ARGUMENTS of unisim-live
+  environment: UNISIM_LIVE (build/release/bin/unisim-live), PATTERN (*.color.*), ARGUMENTS of unisim-live
 TEXT
 }
 
-[ $# -ge 1 ] && [ "$1" != --help ] || {
+if [ $# -eq 0 ] || [ "$1" = --help ]; then
   usage
-  exit $(($# >= 1 ? 0 : 2))
-}
+  exit $(($# > 0 ? 0 : 2))
+fi
 images=$(realpath "$1")
 minutes=${2:-30}
 live=${UNISIM_LIVE:-build/release/bin/unisim-live}
-pattern=${PATTERN:-*.color.png}
+pattern=${PATTERN:-*.color.*}
 work=$(mktemp -d -t unisim-soak.XXXXXX)
 pid=
 watcher=
+# shellcheck disable=SC2317  # by the trap
 clean_up() {
   [ -z "$watcher" ] || kill "$watcher" 2>/dev/null || true
   [ -z "$pid" ] || kill "$pid" 2>/dev/null || true

@@ -235,7 +235,7 @@
     element('map-empty').hidden = box !== null;
     const { pen, width, height } = prepare(element('map'));
     if (!box) return;
-    const margin = 26;
+    const margin = 40;  // the length at the bottom has room
     const side = Math.max(box.x1 - box.x0, box.y1 - box.y0, 1e-9);
     const unit = Math.min((width - 2 * margin) / Math.max(box.x1 - box.x0, 0.02 * side),
       (height - 2 * margin) / Math.max(box.y1 - box.y0, 0.02 * side));
