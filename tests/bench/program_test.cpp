@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
 // unisim-bench as a program: result lines, exit codes, one line on stderr.
-#include <sys/wait.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "tests/support/catch.hpp"
-#include "tests/support/temp_folder.hpp"
+#include "tests/support/program_in_folder.hpp"
 
 namespace {
 
@@ -24,36 +18,9 @@ constexpr const char* kGraph =
     "edge v2v 1 2 1 0 0 0 0 1 1 0 0 1\n"
     "edge v2v 0 2 1 0 0 0 0 1 2.1 0 0 1\n";
 
-class Program {
+class Program : public ProgramInFolder {
  public:
-  Program() { folder_.write("graph.usg", kGraph); }
-
-  int run(const std::string& arguments) {
-    const std::string command = "cd '" + folder_.path() + "' && '" UNISIM_BENCH_PROGRAM "' " +
-                                arguments + " > out.txt 2> err.txt";
-    const int status = std::system(command.c_str());
-    out = content("out.txt");
-    err = content("err.txt");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
-  void require_failure(const std::string& arguments, int code, const std::string& part) {
-    INFO(arguments);
-    REQUIRE(run(arguments) == code);
-    INFO(err);
-    REQUIRE(std::count(err.begin(), err.end(), '\n') == 1);
-    REQUIRE(err.find(part) != std::string::npos);
-  }
-
-  const TempFolder& folder() const { return folder_; }
-  std::string out, err;
-
- private:
-  std::string content(const std::string& name) const {
-    std::ifstream file(folder_ / name);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-  TempFolder folder_;
+  Program() : ProgramInFolder(UNISIM_BENCH_PROGRAM) { folder().write("graph.usg", kGraph); }
 };
 
 void require_times(const Json& times) {

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 // unisim-eval as a program: figures, JSON, plot, exit codes, one line on stderr.
-#include <sys/wait.h>
-
-#include <cstdlib>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/support/catch.hpp"
-#include "tests/support/temp_folder.hpp"
+#include "tests/support/program_in_folder.hpp"
 
 namespace {
 
@@ -20,42 +16,18 @@ constexpr const char* kEstimate =
     "1\n"
     "2 4 4 0 0 0 0 1\nnan 1 1 1 0 0 0 1\n3 0 4 0 0 0 0 1\n";
 
-class Program {
+class Program : public ProgramInFolder {
  public:
-  Program() {
-    folder_.write("gt.txt", kTruth);
-    folder_.write("est.txt", kEstimate);
+  Program() : ProgramInFolder(UNISIM_EVAL_PROGRAM) {
+    folder().write("gt.txt", kTruth);
+    folder().write("est.txt", kEstimate);
   }
 
-  /// Runs in the folder. @return exit code
-  int run(const std::string& arguments) {
-    const std::string command = "cd '" + folder_.path() + "' && '" UNISIM_EVAL_PROGRAM "' " +
-                                arguments + " > out.txt 2> err.txt";
-    const int status = std::system(command.c_str());
-    out = content("out.txt");
-    err = content("err.txt");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
-  /// Runs and expects an error of one line that names `part`.
+  /// And nothing on stdout.
   void require_failure(const std::string& arguments, int code, const std::string& part) {
-    INFO(arguments);
-    REQUIRE(run(arguments) == code);
-    INFO(err);
-    REQUIRE(std::count(err.begin(), err.end(), '\n') == 1);
-    REQUIRE(err.find(part) != std::string::npos);
+    ProgramInFolder::require_failure(arguments, code, part);
     REQUIRE(out.empty());
   }
-
-  const TempFolder& folder() const { return folder_; }
-  std::string out, err;
-
- private:
-  std::string content(const std::string& name) const {
-    std::ifstream file(folder_ / name);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-  TempFolder folder_;
 };
 
 }  // namespace

@@ -7,6 +7,23 @@
 #include "tests/support/catch.hpp"
 
 namespace unisim::geometric::test {
+namespace {
+
+// Shows the walk, 60 images of which each third is a keyframe, after `change` has been at them.
+// @return where the keyframes are
+template <class Change>
+std::vector<CameraPlace> show_changed(PredictorRun* run, Change change) {
+  std::vector<CameraPlace> places;
+  for (int step = 0; step < 60; ++step) {
+    GrayImage image = render_room(walk(step));
+    change(step, &image);
+    REQUIRE(run->show(image, step % 3 == 0) == UNISIM_PREDICTION_OK);
+    if (step % 3 == 0) places.push_back(walk(step));
+  }
+  return places;
+}
+
+}  // namespace
 
 TEST_CASE("a moving camera is posed from its images alone") {
   PredictorRun run(default_config());
@@ -53,27 +70,19 @@ TEST_CASE("exposure jumps do not disturb tracking") {
   unisim_geometric_config config = default_config();
   config.focal_px = kFocal;
   PredictorRun run(config);
-  std::vector<CameraPlace> places;
-  for (int step = 0; step < 60; ++step) {
-    GrayImage image = render_room(walk(step));
+  const std::vector<CameraPlace> places = show_changed(&run, [](int step, GrayImage* image) {
     const int offset = step % 20 >= 10 ? 30 : 0;
-    for (std::uint8_t& gray : image) gray = static_cast<std::uint8_t>(gray / 2 + offset);
-    REQUIRE(run.show(image, step % 3 == 0) == UNISIM_PREDICTION_OK);
-    if (step % 3 == 0) places.push_back(walk(step));
-  }
+    for (std::uint8_t& gray : *image) gray = static_cast<std::uint8_t>(gray / 2 + offset);
+  });
   CHECK(run.info().restarts == 0);
   CHECK(relative_error(run.window(0, run.keyframes()), places) < 0.02);
 }
 
 TEST_CASE("images of few grey levels are posed") {
   PredictorRun run(default_config());
-  std::vector<CameraPlace> places;
-  for (int step = 0; step < 60; ++step) {
-    GrayImage image = render_room(walk(step));
-    for (std::uint8_t& gray : image) gray = static_cast<std::uint8_t>(100 + gray / 20);
-    REQUIRE(run.show(image, step % 3 == 0) == UNISIM_PREDICTION_OK);
-    if (step % 3 == 0) places.push_back(walk(step));
-  }
+  const std::vector<CameraPlace> places = show_changed(&run, [](int, GrayImage* image) {
+    for (std::uint8_t& gray : *image) gray = static_cast<std::uint8_t>(100 + gray / 20);
+  });
   REQUIRE(run.info().initialised == 1);
   CHECK(run.info().restarts == 0);
   CHECK(relative_error(run.window(0, run.keyframes()), places) < 0.1);
@@ -83,15 +92,11 @@ TEST_CASE("contrast that changes from frame to frame does not disturb tracking")
   unisim_geometric_config config = default_config();
   config.focal_px = kFocal;
   PredictorRun run(config);
-  std::vector<CameraPlace> places;
-  for (int step = 0; step < 60; ++step) {
-    GrayImage image = render_room(walk(step));
-    for (std::uint8_t& gray : image) {
+  const std::vector<CameraPlace> places = show_changed(&run, [](int step, GrayImage* image) {
+    for (std::uint8_t& gray : *image) {
       gray = static_cast<std::uint8_t>(step % 2 == 0 ? gray / 2 : gray / 4);
     }
-    REQUIRE(run.show(image, step % 3 == 0) == UNISIM_PREDICTION_OK);
-    if (step % 3 == 0) places.push_back(walk(step));
-  }
+  });
   REQUIRE(run.info().initialised == 1);
   CHECK(run.info().restarts == 0);
   CHECK(relative_error(run.window(0, run.keyframes()), places) < 0.05);

@@ -3,9 +3,9 @@
 #include "tests/lcm/event_log.hpp"
 
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
+
+#include "tests/support/temp_folder.hpp"
 
 namespace unisim::testing {
 namespace {
@@ -47,8 +47,7 @@ std::string event_bytes(int64_t number, int64_t utime, const std::string& channe
 }
 
 std::vector<LogEvent> read_log(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(file), {});
+  const std::string bytes = read_file(path);
   std::vector<LogEvent> events;
   for (size_t at = 0; at < bytes.size();) {
     if (take(bytes, &at, 4) != kSync) throw std::runtime_error("no event where one should begin");

@@ -109,15 +109,20 @@ std::vector<std::vector<double>> read_tum(const std::string& path) {
   return poses;
 }
 
-}  // namespace
-
-TEST_CASE("what unisim-replay publishes leads a consumer to the poses it writes") {
-  const TempFolder folder;
+// Into run.lcm, beside the folder out.
+void publish_run(const TempFolder& folder) {
   const ProgramResult result =
       run_replay({rendered_sequence(), "--out", folder / "out", "--stride", "2", "--quiet",
                   "--no-report", "--lcm", "file://" + (folder / "run.lcm") + "?mode=w"});
   INFO(result.err);
   REQUIRE(result.code == 0);
+}
+
+}  // namespace
+
+TEST_CASE("what unisim-replay publishes leads a consumer to the poses it writes") {
+  const TempFolder folder;
+  publish_run(folder);
   Consumer consumer;
   for (const LogEvent& event : read_log(folder / "run.lcm")) consumer.take(event);
   CHECK(consumer.poses == 40);
@@ -152,11 +157,7 @@ TEST_CASE("what unisim-replay publishes leads a consumer to the poses it writes"
 
 TEST_CASE("the state is published and the unit is said to be relative") {
   const TempFolder folder;
-  const ProgramResult result =
-      run_replay({rendered_sequence(), "--out", folder / "out", "--stride", "2", "--quiet",
-                  "--no-report", "--lcm", "file://" + (folder / "run.lcm") + "?mode=w"});
-  INFO(result.err);
-  REQUIRE(result.code == 0);
+  publish_run(folder);
   const std::vector<std::string> sent = messages_on("UNISIM_STATUS", folder / "run.lcm");
   REQUIRE(sent.size() >= 2);
   auto first = decoded(sent.front(), unisim_status_t_decode);

@@ -5,8 +5,6 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "tests/support/temp_folder.hpp"
@@ -33,10 +31,7 @@ class Shell {
     return UNISIM_ARENA_PROGRAM;
   }
 
-  std::string content(const std::string& name) const {
-    std::ifstream file(folder_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string content(const std::string& name) const { return read_file(folder_ / name); }
 
   const TempFolder& folder() const { return folder_; }
 

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/support/catch.hpp"
@@ -99,8 +98,7 @@ StderrCapture::~StderrCapture() {
 
 std::string StderrCapture::text() {
   std::fflush(stderr);
-  std::ifstream file(folder_ / "stderr");
-  return {std::istreambuf_iterator<char>(file), {}};
+  return read_file(folder_ / "stderr");
 }
 
 }  // namespace detail

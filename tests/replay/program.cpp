@@ -104,11 +104,6 @@ std::string rendered_sequence() { return UNISIM_RENDERED "/320x240"; }
 
 std::string small_sequence() { return UNISIM_RENDERED "/160x120"; }
 
-std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 void write_file(const std::string& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
   file << text;

@@ -46,7 +46,6 @@ std::string rendered_sequence();
 /// The same in 160x120.
 std::string small_sequence();
 
-std::string read_file(const std::string& path);
 void write_file(const std::string& path, const std::string& text);
 
 }  // namespace unisim::testing

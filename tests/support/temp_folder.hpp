@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: MIT
-// A fresh folder for one test, removed at its end.
+// A fresh folder for one test, removed at its end; and whole files as text.
 #pragma once
 
 #include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+
+/// @return "" for a file that is not there
+inline std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
 
 class TempFolder {
  public:

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "tests/support/catch.hpp"
-#include "tests/synth/temporary_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 #include "tools/synth/sequence.hpp"
 
 namespace {
@@ -15,7 +15,8 @@ std::map<std::string, std::string> bytes_of(const SequenceOptions& options) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(options.folder)) {
     if (entry.is_regular_file()) {
-      files[entry.path().lexically_relative(options.folder).string()] = read_file(entry.path());
+      files[entry.path().lexically_relative(options.folder).string()] =
+          read_file(entry.path().string());
     }
   }
   return files;
@@ -36,12 +37,12 @@ SequenceOptions small() {
 }  // namespace
 
 TEST_CASE("a sequence does not depend on the number of threads") {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   SequenceOptions options = small();
-  options.folder = (folder / "one").string();
+  options.folder = folder / "one";
   options.threads = 1;
   const auto one = bytes_of(options);
-  options.folder = (folder / "three").string();
+  options.folder = folder / "three";
   options.threads = 3;
   const auto three = bytes_of(options);
   REQUIRE(one.size() == 5 + 2 * 4);
@@ -49,11 +50,11 @@ TEST_CASE("a sequence does not depend on the number of threads") {
 }
 
 TEST_CASE("another seed gives other images and another path") {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   SequenceOptions options = small();
-  options.folder = (folder / "one").string();
+  options.folder = folder / "one";
   const auto one = bytes_of(options);
-  options.folder = (folder / "two").string();
+  options.folder = folder / "two";
   options.seed = 2;
   const auto two = bytes_of(options);
   CHECK(one.at("groundtruth.txt") != two.at("groundtruth.txt"));

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tests/support/catch.hpp"
-#include "tests/synth/temporary_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace {
 
@@ -55,7 +55,7 @@ const std::string kSmall = " --scene lowtexture --size 96x64 --quiet";
 }  // namespace
 
 TEST_CASE("the folder reads as a TUM sequence") {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const fs::path out = folder / "sequence";
   REQUIRE(synth(out.string() + kSmall + " --frames 5 --focal 80").exit_code == 0);
   const auto rgb = rows_of(out / "rgb.txt");
@@ -83,15 +83,15 @@ TEST_CASE("the folder reads as a TUM sequence") {
     CHECK(norm == Approx(1).epsilon(1e-7));
   }
   CHECK(std::stod(rgb[1][0]) - std::stod(rgb[0][0]) == Approx(1 / 30.0).margin(1e-6));
-  const std::string camera = read_file(out / "camera.toml");
+  const std::string camera = read_file((out / "camera.toml").string());
   CHECK(camera.find("\nfx = 80\n") != std::string::npos);
   CHECK(camera.find("\ncx = 47.5\n") != std::string::npos);
   CHECK(camera.find("\nscene = \"lowtexture\"\n") != std::string::npos);
 }
 
 TEST_CASE("a folder that holds something is not written into") {
-  const TemporaryFolder folder;
-  const std::string out = (folder / "sequence").string();
+  const TempFolder folder;
+  const std::string out = folder / "sequence";
   REQUIRE(synth(out + kSmall + " --frames 3").exit_code == 0);
   const Run again = synth(out + kSmall + " --frames 2");
   CHECK(again.exit_code == 2);
@@ -110,8 +110,8 @@ TEST_CASE("a folder that holds something is not written into") {
 }
 
 TEST_CASE("bad usage is one line that names the option, and exit code 2") {
-  const TemporaryFolder folder;
-  const std::string out = (folder / "sequence").string();
+  const TempFolder folder;
+  const std::string out = folder / "sequence";
   const auto [arguments, word] =
       GENERATE(table<std::string, std::string>({{"--size 640", "--size"},
                                                 {"--size 640x480x3", "--size"},
@@ -147,10 +147,10 @@ TEST_CASE("help is no error and a missing folder is one") {
 }
 
 TEST_CASE("a place that cannot be written is exit code 4, a file in the way 2") {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const Run nowhere = synth("/proc/unisim-synth" + kSmall);
   CHECK(nowhere.exit_code == 4);
   CHECK(nowhere.errors.find("/proc/unisim-synth") != std::string::npos);
   std::ofstream(folder / "file") << "x";
-  CHECK(synth((folder / "file").string() + kSmall).exit_code == 2);
+  CHECK(synth(folder / "file" + kSmall).exit_code == 2);
 }

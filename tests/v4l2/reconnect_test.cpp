@@ -7,6 +7,12 @@ namespace {
 
 constexpr int64_t kSecond = 1'000'000'000;
 
+void unplug_after_a_frame(CameraRun* run) {
+  REQUIRE(run->open());
+  REQUIRE(run->next() == UNISIM_FRAME_OK);
+  run->io.unplug(0);
+}
+
 }  // namespace
 
 TEST_CASE("a camera that is unplugged twenty times is found again by its bus each time") {
@@ -48,9 +54,7 @@ TEST_CASE("a camera that does not come back ends the source in one line") {
   CameraRun run;
   make_small(&run);
   run.config.reconnect_ms = 5000;
-  REQUIRE(run.open());
-  REQUIRE(run.next() == UNISIM_FRAME_OK);
-  run.io.unplug(0);
+  unplug_after_a_frame(&run);
   const int64_t start_ns = run.io.now_ns();
   CHECK(run.next() == UNISIM_FRAME_BAD);
   CHECK(run.next() == UNISIM_FRAME_FAILED);
@@ -61,9 +65,7 @@ TEST_CASE("a camera that does not come back ends the source in one line") {
 TEST_CASE("a lost camera is not waited for where that was not asked for") {
   CameraRun run;
   run.config.reconnect_ms = 0;
-  REQUIRE(run.open());
-  REQUIRE(run.next() == UNISIM_FRAME_OK);
-  run.io.unplug(0);
+  unplug_after_a_frame(&run);
   CHECK(run.next() == UNISIM_FRAME_FAILED);
   CHECK(run.says("/dev/video0"));
   CHECK(run.says("plug it in"));
@@ -72,9 +74,7 @@ TEST_CASE("a lost camera is not waited for where that was not asked for") {
 TEST_CASE("permissions that come after the device are waited for") {
   CameraRun run;
   make_small(&run);
-  REQUIRE(run.open());
-  REQUIRE(run.next() == UNISIM_FRAME_OK);
-  run.io.unplug(0);
+  unplug_after_a_frame(&run);
   CHECK(run.next() == UNISIM_FRAME_BAD);
   run.io.plug(3, run.camera);
   run.io.fail("open", EACCES, 0, 4);
@@ -89,9 +89,7 @@ TEST_CASE("of two nodes of one camera the same one is found again") {
   auto second = std::make_shared<FakeCamera>(*run.camera);
   run.io.plug(1, second);
   run.config.device = "1";
-  REQUIRE(run.open());
-  REQUIRE(run.next() == UNISIM_FRAME_OK);
-  run.io.unplug(0);
+  unplug_after_a_frame(&run);
   run.io.unplug(1);
   CHECK(run.next() == UNISIM_FRAME_BAD);
   run.io.plug(6, run.camera);
@@ -103,9 +101,7 @@ TEST_CASE("of two nodes of one camera the same one is found again") {
 TEST_CASE("a camera that comes back with another size ends the source") {
   CameraRun run;
   make_small(&run);
-  REQUIRE(run.open());
-  REQUIRE(run.next() == UNISIM_FRAME_OK);
-  run.io.unplug(0);
+  unplug_after_a_frame(&run);
   CHECK(run.next() == UNISIM_FRAME_BAD);
   run.camera->forced_width = 16;
   run.camera->forced_height = 16;
