@@ -86,7 +86,8 @@ void FrontEnd::begin_keyframe(Tracks* tracks) {
 
 const std::vector<cv::Point2f>& FrontEnd::detect(const Tracks& tracks) {
   const int wanted = max_tracks_ - static_cast<int>(tracks.size());
-  return detector_.run(current().gray, tracks, wanted, spacing_, fresh_mask());
+  const cv::Mat& raised = contrast_.run(preparation_.gray(), preparation_.mean());
+  return detector_.run(raised, tracks, wanted, spacing_, fresh_mask());
 }
 
 void FrontEnd::end_keyframe(Tracks* tracks) {
@@ -97,8 +98,8 @@ void FrontEnd::end_keyframe(Tracks* tracks) {
 
 int64_t FrontEnd::bytes() const {
   const auto pixels = static_cast<int64_t>(size_.area());
-  // Three prepared images, the mask, and seven bytes a pixel to prepare an image.
-  return 3 * prepared_image_bytes(size_.width, size_.height) + 8 * pixels;
+  // Three prepared images, the mask, four bytes a pixel to prepare an image, five to raise it.
+  return 3 * prepared_image_bytes(size_.width, size_.height) + 10 * pixels;
 }
 
 }  // namespace unisim::geometric

@@ -8,6 +8,7 @@
 #include "drivers/geometric/image/detector.hpp"
 #include "drivers/geometric/image/frame_tracker.hpp"
 #include "drivers/geometric/image/keyframe_retrack.hpp"
+#include "drivers/geometric/image/local_contrast.hpp"
 #include "drivers/geometric/image/prepared_image.hpp"
 #include "drivers/geometric/image/tracks.hpp"
 #include "drivers/geometric/zoom/zoom_jump.hpp"
@@ -36,8 +37,10 @@ class FrontEnd {
   const std::vector<cv::Point2f>& detect(const Tracks& tracks);
   void end_keyframe(Tracks* tracks);
 
-  const cv::Mat& gray() const { return preparation_.gray; }  ///< of the frame seen last, as it came
-  size_t sealed() const { return sealed_; }                  ///< tracks at the last keyframe
+  const cv::Mat& gray() const {
+    return preparation_.gray();
+  }                                          ///< of the frame seen last, as it came
+  size_t sealed() const { return sealed_; }  ///< tracks at the last keyframe
   const PreparedImage& current() const { return images_[static_cast<size_t>(last_)]; }
   const cv::Point2f& flow() const { return flow_; }  ///< median over the last frame
   /// Scratch of the image's size, set where nothing may be followed.
@@ -58,6 +61,7 @@ class FrontEnd {
   cv::Mat hidden_;  // set where nothing may be followed; empty: nowhere
   cv::Mat mask_;
   ImagePreparation preparation_;
+  LocalContrast contrast_;
   FrameTracker tracker_;
   ZoomJump jump_;
   bool jumped_ = false;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// How an image is made ready for tracking.
+// How an image is made ready for tracking and for the detector.
 #include "drivers/geometric/image/prepared_image.hpp"
 
 #include <cmath>
 
+#include "drivers/geometric/image/local_contrast.hpp"
 #include "tests/support/catch.hpp"
 
 using unisim::geometric::ImagePreparation;
+using unisim::geometric::LocalContrast;
 using unisim::geometric::PreparedImage;
 
 namespace {
@@ -26,12 +28,23 @@ cv::Mat checks(int level, int amplitude) {
   return image;
 }
 
-cv::Mat prepared(const cv::Mat& image) {
-  PreparedImage out;
-  ImagePreparation().run({image.data, image.cols, image.rows, image.cols, UNISIM_PIXEL_GRAY8},
-                         &out);
-  return out.gray;
-}
+class Frames {
+ public:
+  /// The next frame, prepared.
+  cv::Mat show(const cv::Mat& image) {
+    PreparedImage out;
+    preparation_.run({image.data, image.cols, image.rows, image.cols, UNISIM_PIXEL_GRAY8}, &out);
+    return out.gray;
+  }
+  /// The same with its faint parts raised.
+  cv::Mat raised(const cv::Mat& image) {
+    show(image);
+    return LocalContrast().run(preparation_.gray(), preparation_.mean()).clone();
+  }
+
+ private:
+  ImagePreparation preparation_;
+};
 
 double contrast(const cv::Mat& image) {
   cv::Scalar mean;
@@ -42,24 +55,47 @@ double contrast(const cv::Mat& image) {
 
 }  // namespace
 
-TEST_CASE("faint texture is raised, but not without limit") {
+TEST_CASE("the detector sees faint texture raised, but not without limit") {
   const cv::Mat faint = checks(90, 3);
-  const double gain = contrast(prepared(faint)) / contrast(faint);
+  const double gain = contrast(Frames().raised(faint)) / contrast(faint);
   CHECK(gain > 2.5);
   CHECK(gain < 3.2);
 }
 
-TEST_CASE("strong texture keeps its contrast") {
+TEST_CASE("the detector sees strong texture as it is") {
   const cv::Mat strong = checks(128, 50);
-  CHECK(contrast(prepared(strong)) == Approx(contrast(strong)).epsilon(0.1));
+  CHECK(contrast(Frames().raised(strong)) == Approx(contrast(strong)).epsilon(0.1));
 }
 
-TEST_CASE("contrast lost from one frame to the next is given back") {
-  const double full = contrast(prepared(checks(150, 24)));
-  const double half = contrast(prepared(checks(100, 12)));
-  CHECK(half > 0.75 * full);
+TEST_CASE("a patch is tracked on grey levels that do not follow what is beside it") {
+  cv::Mat half_strong = checks(128, 6);
+  checks(128, 60)
+      .colRange(kWidth / 2 + 40, kWidth)
+      .copyTo(half_strong.colRange(kWidth / 2 + 40, kWidth));
+  const cv::Mat alone = Frames().show(checks(128, 6));
+  const cv::Mat beside = Frames().show(half_strong);
+  const cv::Rect near(kWidth / 2 - 24, 60, 40, 60);
+  CHECK(contrast(beside(near)) == Approx(contrast(alone(near))).epsilon(0.02));
+}
+
+TEST_CASE("contrast that flickers is held steady") {
+  Frames frames;
+  const double full = contrast(frames.show(checks(150, 24)));
+  CHECK(contrast(frames.show(checks(100, 12))) == Approx(full).epsilon(0.1));
+  CHECK(contrast(frames.show(checks(150, 24))) == Approx(full).epsilon(0.1));
+}
+
+TEST_CASE("what a moving camera brings into sight changes no gain") {
+  Frames frames;
+  frames.show(checks(128, 40));
+  for (int amplitude = 39; amplitude > 20; --amplitude) {
+    const cv::Mat image = checks(128, amplitude);
+    CHECK(contrast(frames.show(image)) == Approx(contrast(image)).epsilon(0.02));
+  }
 }
 
 TEST_CASE("a bare wall stays bare") {
-  CHECK(contrast(prepared(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(200)))) == 0.0);
+  const cv::Mat wall(kHeight, kWidth, CV_8UC1, cv::Scalar(200));
+  CHECK(contrast(Frames().show(wall)) == 0.0);
+  CHECK(contrast(Frames().raised(wall)) == 0.0);
 }

@@ -34,7 +34,7 @@ cv::Point2f FrameTracker::run(const PreparedImage& previous, const PreparedImage
   for (size_t i = 0; i < tracks->size(); ++i) next_[i] = tracks->point[i] + tracks->velocity[i];
   cv::calcOpticalFlowPyrLK(previous.pyramid, current.pyramid, tracks->point, next_, found_, error_,
                            cv::Size(kTrackWindow, kTrackWindow), kPyramidLevels, track_criteria(),
-                           cv::OPTFLOW_USE_INITIAL_FLOW);
+                           cv::OPTFLOW_USE_INITIAL_FLOW, kMinTexture);
   bad_.assign(tracks->size(), 0);
   dx_.clear();
   dy_.clear();

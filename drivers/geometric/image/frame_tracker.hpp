@@ -38,6 +38,10 @@ inline bool inside_image(const cv::Point2f& p, const cv::Size& size, float margi
 
 inline constexpr float kTrackMargin = 4.0F;
 
+/// Least texture of a patch that Lucas-Kanade follows: a tenth of what OpenCV asks for, or it lets
+/// go of the faint corners that the detector finds (a white cloth, a bare floor).
+inline constexpr double kMinTexture = 1e-5;
+
 /// Stop rule of every Lucas-Kanade call.
 inline cv::TermCriteria track_criteria() {
   return {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 10, 0.01};

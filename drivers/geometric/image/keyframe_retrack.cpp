@@ -36,9 +36,9 @@ void KeyframeRetrack::run(const PreparedImage& last_keyframe, const PreparedImag
   back_ = from_;
   const cv::Size window(kTrackWindow, kTrackWindow);
   cv::calcOpticalFlowPyrLK(last_keyframe.pyramid, current.pyramid, from_, to_, found_, error_,
-                           window, 0, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW);
+                           window, 0, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW, kMinTexture);
   cv::calcOpticalFlowPyrLK(current.pyramid, last_keyframe.pyramid, to_, back_, found_back_, error_,
-                           window, 0, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW);
+                           window, 0, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW, kMinTexture);
   bad_.assign(tracks->size(), 0);
   for (size_t j = 0; j < index_.size(); ++j) {
     const size_t i = index_[j];

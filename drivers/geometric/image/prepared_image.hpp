@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An image made ready for tracking: gray, free of exposure, faint parts raised, as a pyramid with
-// derivatives.
+// An image made ready for tracking: gray, free of exposure, as a pyramid with derivatives.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -13,31 +12,36 @@ namespace unisim::geometric {
 inline constexpr int kTrackWindow = 11;   ///< side of the tracked patch in pixels
 inline constexpr int kPyramidLevels = 3;  ///< levels above full resolution
 inline constexpr double kReferenceDiagonal =
-    800.0;  ///< image diagonal that pixel thresholds refer to
+    800.0;                                    ///< image diagonal that pixel thresholds refer to
+inline constexpr float kMiddleGray = 128.0F;  ///< of an image without its local mean
 
 /// Pyramid of one frame; buffers are reused from frame to frame.
 struct PreparedImage {
-  cv::Mat gray;                  ///< local mean removed, faint parts raised
+  cv::Mat gray;                  ///< local mean removed, contrast as in the frames before
   std::vector<cv::Mat> pyramid;  ///< alternating level, derivatives
 };
 
-/// Fills `out` from borrowed pixels. Subtracting the local mean takes out exposure jumps. Where the
-/// contrast around a pixel is small it is raised: corners of bare walls and dim corners are found
-/// and followed too, and a frame of less contrast than the one before loses none.
-/// The members keep the buffers in between.
-struct ImagePreparation {
-  cv::Mat gray;
-  cv::Mat mean;
-  cv::Mat difference;  ///< gray from its local mean, without sign
-  cv::Mat square;
-  cv::Mat variance;   ///< of each cell of some pixels
-  cv::Mat gain;       ///< of each cell
-  cv::Mat wide_gain;  ///< of each column, for each row of cells
+/// The side of a window of `pixels` in an image of this size: odd, smaller in small images.
+int odd_window(double pixels, const cv::Size& image);
+
+/// Fills PreparedImages from borrowed pixels, frame by frame. Subtracting the local mean takes out
+/// jumps of exposure, one gain for the whole image those of contrast (flicker, gamma): patches are
+/// compared grey level by grey level. The members keep the buffers in between.
+class ImagePreparation {
+ public:
   void run(const unisim_image& image, PreparedImage* out);
+  const cv::Mat& gray() const { return gray_; }  ///< of the last run, as it came
+  const cv::Mat& mean() const { return mean_; }  ///< its local mean
 
  private:
-  void measure_gain(int window);
-  void apply_gain(cv::Mat* out) const;
+  double steady_gain();
+
+  cv::Mat gray_;
+  cv::Mat mean_;
+  cv::Mat difference_;
+  double log_contrast_ = 0;  // of the last frame
+  double log_gain_ = 0;
+  bool first_ = true;
 };
 
 /// Bytes of one PreparedImage of this size, derivatives included.

@@ -146,9 +146,10 @@ int Revive::run(const PatchStore& patches, const PreparedImage& current, const C
     fill_atlas(patches, first, count);
     back_ = from_;
     cv::calcOpticalFlowPyrLK(atlas_.pyramid, current.pyramid, from_, to_, found_, error_, window,
-                             kLevels, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW);
+                             kLevels, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW, kMinTexture);
     cv::calcOpticalFlowPyrLK(current.pyramid, atlas_.pyramid, to_, back_, found_back_, error_,
-                             window, kLevels, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW);
+                             window, kLevels, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW,
+                             kMinTexture);
     for (size_t j = 0; j < count; ++j) {
       const Candidate& candidate = candidates_[first + j];
       if (!accept(j, candidate, current, state->pixel_scale)) continue;
