@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
-# Component unisim: libunisim (shared, static), its headers, the CMake package, unisim.pc.
-# Programs and drivers install themselves where they are built.
+# Component unisim: what a program needs to run with libunisim. unisim_dev: what it takes to build one: headers, the
+# static library, the CMake package, unisim.pc. Programs and drivers install themselves where they are built, as
+# unisim_tools, unisim_drivers and unisim_drivers_dev.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS unisim unisim_static EXPORT unisim-targets
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT unisim
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT unisim)
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT unisim NAMELINK_COMPONENT unisim_dev
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT unisim_dev)
 install(FILES
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/config.h
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/places.h
@@ -13,11 +14,11 @@ install(FILES
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/types.h
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/unisim.h
   ${PROJECT_BINARY_DIR}/capi/include/unisim/version.h
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/unisim COMPONENT unisim)
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/unisim COMPONENT unisim_dev)
 
 set(unisim_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/unisim)
 install(EXPORT unisim-targets NAMESPACE unisim:: DESTINATION ${unisim_package_dir}
-  COMPONENT unisim)
+  COMPONENT unisim_dev)
 configure_package_config_file(
   ${CMAKE_CURRENT_LIST_DIR}/unisim-config.cmake.in ${PROJECT_BINARY_DIR}/unisim-config.cmake
   INSTALL_DESTINATION ${unisim_package_dir})
@@ -25,10 +26,6 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/unisim-config-version.cma
   COMPATIBILITY SameMinorVersion)
 install(FILES
   ${PROJECT_BINARY_DIR}/unisim-config.cmake ${PROJECT_BINARY_DIR}/unisim-config-version.cmake
-  DESTINATION ${unisim_package_dir} COMPONENT unisim)
+  DESTINATION ${unisim_package_dir} COMPONENT unisim_dev)
 
-file(RELATIVE_PATH UNISIM_PC_TO_PREFIX
-  ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
-configure_file(${CMAKE_CURRENT_LIST_DIR}/unisim.pc.in ${PROJECT_BINARY_DIR}/unisim.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/unisim.pc
-  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT unisim)
+unisim_install_pkgconfig(unisim unisim_dev)

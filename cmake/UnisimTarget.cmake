@@ -3,6 +3,12 @@
 
 set(UNISIM_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
 
+# Without an operating system nothing is loaded elsewhere than it was linked for.
+set(UNISIM_LIBRARIES_MOVE ON)
+if(CMAKE_SYSTEM_NAME STREQUAL Generic)
+  set(UNISIM_LIBRARIES_MOVE OFF)
+endif()
+
 # unisim_target_defaults(TARGET): language level, warnings, hidden visibility.
 function(unisim_target_defaults target)
   target_compile_features(${target} PRIVATE cxx_std_17 c_std_99)
@@ -12,7 +18,7 @@ function(unisim_target_defaults target)
     C_VISIBILITY_PRESET hidden
     CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON
-    POSITION_INDEPENDENT_CODE ON)
+    POSITION_INDEPENDENT_CODE ${UNISIM_LIBRARIES_MOVE})
 endfunction()
 
 # unisim_target_freestanding(TARGET): what core and capi add: no exceptions, no RTTI, nothing that
@@ -23,21 +29,55 @@ function(unisim_target_freestanding target)
     $<$<COMPILE_LANGUAGE:CXX>:-fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-math-errno
     -ffp-contract=off>)
   target_compile_definitions(${target} PRIVATE EIGEN_NO_IO EIGEN_MAX_STATIC_ALIGN_BYTES=16)
+  # For one instruction set the library is kept small: -O3 makes it a third larger, most of it unrolled loops.
+  if(NOT UNISIM_ISA STREQUAL "dispatch")
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
+    target_compile_definitions(${target} PRIVATE UNISIM_ONE_ISA)
+    if(NOT UNISIM_ISA STREQUAL "default")
+      target_compile_options(${target} PRIVATE -march=${UNISIM_ISA})
+    endif()
+  endif()
   # Whoever links the objects shares Eigen's inline functions with them.
   target_compile_definitions(${target} PUBLIC EIGEN_DONT_VECTORIZE)
 endfunction()
 
-# unisim_install_program(TARGET): into the folder of programs. It finds libunisim beside that folder, wherever
-# the two are moved together: no folder of libraries outside the system's is searched by itself.
-function(unisim_install_program target)
+# unisim_install_program(TARGET SAYS): into the folder of programs, with a manual page of its --help, headed by
+# what it SAYS, where help2man is there. It finds libunisim beside that folder, wherever the two are moved together:
+# no folder of libraries outside the system's is searched by itself.
+function(unisim_install_program target says)
   file(RELATIVE_PATH to_libraries ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
   set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/${to_libraries}")
-  install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT unisim_tools)
+  find_program(UNISIM_HELP2MAN help2man)
+  # A program of another machine, or with a sanitizer's words in its output, is not asked.
+  if(NOT UNISIM_HELP2MAN OR CMAKE_CROSSCOMPILING OR UNISIM_SANITIZE)
+    return()
+  endif()
+  set(page ${PROJECT_BINARY_DIR}/man/${target}.1)
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/man)
+  add_custom_command(OUTPUT ${page}
+    COMMAND ${UNISIM_HELP2MAN} --no-info --name ${says} --source "libunisim ${PROJECT_VERSION}"
+      --version-string ${PROJECT_VERSION} --output ${page} $<TARGET_FILE:${target}>
+    DEPENDS ${target} VERBATIM COMMENT "Making ${target}.1")
+  add_custom_target(${target}-man ALL DEPENDS ${page})
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT unisim_tools)
+endfunction()
+
+# unisim_install_pkgconfig(NAME COMPONENT): cmake/NAME.pc.in, which finds its prefix from where it lies.
+function(unisim_install_pkgconfig name component)
+  file(RELATIVE_PATH UNISIM_PC_TO_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+    COMPONENT ${component})
 endfunction()
 
 # unisim_vectorised_sources(TARGET FILES...): compiles sources of TARGET once more for the wider vectors
-# of x86-64, in the namespace `avx2` (core/base/isa.hpp). Which copy runs is decided at run time.
+# of x86-64, in the namespace `avx2` (core/base/isa.hpp). Which copy runs is decided at run time. Not with
+# UNISIM_ISA for one instruction set.
 function(unisim_vectorised_sources target)
+  if(NOT UNISIM_ISA STREQUAL "dispatch")
+    return()
+  endif()
   include(CheckCXXCompilerFlag)
   check_cxx_compiler_flag(-mavx2 UNISIM_COMPILER_HAS_AVX2)
   if(NOT UNISIM_COMPILER_HAS_AVX2)

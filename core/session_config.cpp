@@ -17,7 +17,7 @@ int32_t windows_over_keyframe(const SessionConfig& config) {
 int32_t windows_of(const SessionConfig& config, int32_t keyframes) {
   if (config.max_submaps > 0) return config.max_submaps;
   const int32_t step = config.window_size - config.window_overlap;
-  return std::max(0, keyframes - config.window_size) / step + 2;
+  return std::max<int32_t>(0, keyframes - config.window_size) / step + 2;
 }
 
 /// Blocks of the Cholesky factor. Keyframes come first and each sees the next one, the windows over
@@ -91,7 +91,7 @@ void size_window(const SessionConfig& config, SessionCapacity* capacity) {
   capacity->submaps = {readable + capacity->skeleton + capacity->live_windows + 1, config.max_loops,
                        live, w, capacity->live_windows * w};
   capacity->window_pairs = capacity->live_windows * std::min(2 * windows_over_keyframe(config),
-                                                             std::max(config.window_overlap, 1));
+                                                             std::max<int32_t>(config.window_overlap, 1));
 
   const int32_t nodes = capacity->live_nodes + w;
   const int32_t views = live * w;

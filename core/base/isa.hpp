@@ -11,8 +11,13 @@
 #define UNISIM_ISA baseline
 #endif
 
+#ifdef UNISIM_ONE_ISA
+/// There is one copy of each source: the compiler weighs size and speed.
+#define UNISIM_ALWAYS_INLINE inline
+#else
 /// Inlined even without optimisation: leaves no symbol behind.
 #define UNISIM_ALWAYS_INLINE inline __attribute__((always_inline))
+#endif
 
 // UNISIM_EACH_ISA(declarations): declares the functions of a vectorised source, every copy of them.
 // UNISIM_DISPATCH(call): calls one of these functions, the copy for this processor.

@@ -8,7 +8,7 @@ namespace unisim {
 
 bool WindowSchedule::append(const Window& window, Window* skipped) {
   covered_ = window.first + window.count;
-  next_first_ = std::max(covered_ - overlap_, 0);
+  next_first_ = std::max<int32_t>(covered_ - overlap_, 0);
   const bool room = endless_ ? !open_.full() : cut_ < open_.capacity();
   if (!room) *skipped = endless_ ? open_[0] : window;
   if (!room && !endless_) return false;

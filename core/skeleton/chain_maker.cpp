@@ -67,7 +67,7 @@ void ChainMaker::guess(const Submap& m, const Submap& n, ChainLink* link) const 
   const int32_t last = map_.submaps.origin_keyframe(n);
   const double information = map_.config.factor(FactorKind::kTwoView).information;
   link->Z_a_b = between(map_.graph.pose(m.place.node), map_.graph.pose(n.place.node));
-  link->Lambda = Mat7::Identity() * (information / std::max(1, std::abs(last - first)));
+  link->Lambda = Mat7::Identity() * (information / std::max<int32_t>(1, std::abs(last - first)));
 }
 
 bool ChainMaker::takes_part(const Submap& loop, int32_t k) const {

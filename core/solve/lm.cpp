@@ -184,7 +184,7 @@ LmStop LevenbergMarquardt::iterate(Graph* graph, const LmOptions& options, LmRep
     if (damping.exhausted()) return factored ? LmStop::kNoDescent : LmStop::kNotPositive;
     factored = find_step(options, *report);
     if (!factored) {
-      report->bad_node = pattern_.node_of_column(std::max(cholesky_.bad_column(), 0));
+      report->bad_node = pattern_.node_of_column(std::max<int32_t>(cholesky_.bad_column(), 0));
       tell(options.observer, LmPhase::kLinearize, *report);
       linearize_all(*graph);
       damping.reject();

@@ -2,12 +2,14 @@
 # Install the library of BUILD into a fresh prefix, move it elsewhere, and build and run the user's project in C
 # against it. USES is find_package or pkg-config. DRIVERS_EXAMPLE, where the second library was built, is a program for it.
 file(REMOVE_RECURSE ${WORK})
-execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --component unisim --prefix ${WORK}/first
-  OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+set(components unisim unisim_dev)
 if(DRIVERS_EXAMPLE)
-  execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --component unisim_drivers --prefix ${WORK}/first
-    OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+  list(APPEND components unisim_drivers unisim_drivers_dev)
 endif()
+foreach(component IN LISTS components)
+  execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --component ${component} --prefix ${WORK}/first
+    OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
 file(RENAME ${WORK}/first ${WORK}/moved)
 
 set(ENV{PKG_CONFIG_PATH} ${WORK}/moved/${LIBDIR}/pkgconfig)
