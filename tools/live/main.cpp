@@ -7,6 +7,7 @@
 #include "tools/common/program.hpp"
 #include "tools/live/camera.hpp"
 #include "tools/live/frame_recorder.hpp"
+#include "tools/live/lcm_images.hpp"
 #include "tools/live/options.hpp"
 #include "tools/live/pose_age.hpp"
 #include "tools/live/scheduling.hpp"
@@ -44,6 +45,8 @@ class LiveRun {
       int64_t offset_ns = 0;
       input = open_camera(options_, &offset_ns);
       ages_.set_stamp_clock(offset_ns);
+    } else if (is_lcm(options_.device)) {
+      input = open_lcm_images(options_);
     } else {
       input.source = replay::open_sequence(options_.run, &input.notes);
     }
@@ -58,10 +61,10 @@ class LiveRun {
   }
 
   void end(const unisim_source* source) {
-    if (is_camera(options_.device)) {
-      const std::string losses = camera_losses(source);
-      if (!losses.empty()) tools::complain(kProgramName, "frames " + losses);
-    }
+    std::string losses;
+    if (is_camera(options_.device)) losses = camera_losses(source);
+    if (is_lcm(options_.device)) losses = lcm_losses(source);
+    if (!losses.empty()) tools::complain(kProgramName, "frames " + losses);
     if (!recorder_) return;
     const std::string problem = recorder_->finish();
     recording_failed_ = !problem.empty();

@@ -76,9 +76,11 @@ void take_power_line(const std::string& text, unisim_v4l2_config* camera) {
 }
 
 void add_camera_options(CLI::App* app, Options* options, Given* given) {
-  app->add_option("--device", options->device,
-                  "camera: /dev/videoN, N or its bus name (default: the first one); or a recorded "
-                  "sequence to play at its own pace");
+  app->add_option(
+      "--device", options->device,
+      "camera: /dev/videoN, N or its bus name (default: the first one); lcm:// or "
+      "lcm://ADDRESS:PORT: images that come over LCM; or a recorded sequence to play at "
+      "its own pace");
   app->add_flag("--list", options->list, "print the cameras and what they offer, end");
   const char* const group = "Camera";
   app->add_option("--size", given->size, "WIDTHxHEIGHT (default: 640x480)")->group(group);
@@ -98,6 +100,9 @@ void add_camera_options(CLI::App* app, Options* options, Given* given) {
       ->group(group);
   app->add_option("--power-line", given->power_line,
                   "50, 60 or off: against the flicker of lamps; or keep (default)")
+      ->group(group);
+  app->add_option("--lcm-image-channel", options->image_channel,
+                  "channel of the images with --device lcm:// (default: UNISIM_IMAGE)")
       ->group(group);
   app->add_option("--format", options->run.format,
                   "of a recorded sequence, as unisim-replay has it")
@@ -149,6 +154,8 @@ bool is_camera(const std::string& device) {
          device.rfind("usb-", 0) == 0 || device.rfind("platform:", 0) == 0;
 }
 
+bool is_lcm(const std::string& device) { return device.rfind(kLcmScheme, 0) == 0; }
+
 std::optional<Options> parse_options(int argc, const char* const* argv) {
   CLI::App app("A camera goes in, poses come out.", kProgramName);
   app.set_version_flag("--version", replay::version_text());
@@ -163,7 +170,16 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   take(given, &options);
   run_options.apply();
   options.run.settings.pipeline.every_frame = true;
-  if (is_camera(options.device)) {
+  if (!is_lcm(options.device) && !options.image_channel.empty()) {
+    throw tools::Failure(tools::kExitUsage, "--lcm-image-channel goes with --device lcm://");
+  }
+  if (is_lcm(options.device) && options.run.lcm_images) {
+    throw tools::Failure(
+        tools::kExitUsage,
+        "--lcm-images with --device lcm://: it would hear its own images; they are "
+        "on the network already");
+  }
+  if (is_camera(options.device) || is_lcm(options.device)) {
     options.run.settings.pipeline.live = true;
     options.run.sequence = options.device.empty() ? "camera" : options.device;
   } else {

@@ -15,8 +15,9 @@ inline constexpr const char* kProgramName = "unisim-live";
 
 /// What unisim-live has beside the options of a run.
 struct Options {
-  replay::Options run;  ///< out "": no results; sequence, format: of a recording played live
-  std::string device;   ///< as given: camera or recording
+  replay::Options run;        ///< out "": no results; sequence, format: of a recording played live
+  std::string device;         ///< as given: camera, LCM or recording
+  std::string image_channel;  ///< of LCM, "" for the usual one
   bool list = false;
   std::optional<std::string> web;  ///< where to serve the page: PORT or ADDRESS:PORT
   std::string web_token;
@@ -28,6 +29,11 @@ struct Options {
 
 /// Whether `device` names a camera: a device file, its number, or nothing.
 bool is_camera(const std::string& device);
+
+inline constexpr const char* kLcmScheme = "lcm://";
+
+/// Whether `device` names images that come over LCM.
+bool is_lcm(const std::string& device);
 
 /// Reads the command line. Throws Failure.
 /// @return nothing when --help or --version has been answered
