@@ -44,8 +44,7 @@ bool plug_in(const std::string& device, const std::string& address) {
 }
 
 struct Heard {
-  int64_t last = -1;
-  bool in_order = true;
+  bool in_order = true;       // the k-th pose is at k
   std::vector<int64_t> ages;  // microseconds
 };
 
@@ -54,8 +53,8 @@ void on_pose(const lcm_recv_buf_t* received, const char* /*channel*/, void* user
   unisim_pose_t pose{};
   const int size = static_cast<int>(received->data_size);
   const bool good = unisim_pose_t_decode(received->data, 0, size, &pose) > 0;
-  heard->in_order = heard->in_order && good && pose.utime > heard->last;
-  heard->last = pose.utime;
+  heard->in_order =
+      heard->in_order && good && pose.pos[0] == static_cast<double>(heard->ages.size());
   heard->ages.push_back(microseconds() - pose.utime);
 }
 
@@ -122,10 +121,11 @@ TEST_CASE(
   INFO(made.message);
   REQUIRE(made.publisher != nullptr);
   bool listening = told(up[0]);
-  const unisim_sim3 T = some_pose();
+  unisim_sim3 T = some_pose();
   auto next = std::chrono::steady_clock::now();
   for (int k = 0; listening && k < kPoses; ++k) {
     std::this_thread::sleep_until(next += kPeriod);
+    T.t[0] = k;
     listening = unisim_lcm_publish_pose(made.publisher.get(), 1000 * microseconds(), &T) ==
                 UNISIM_LCM_QUEUED;
   }

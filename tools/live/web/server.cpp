@@ -2,13 +2,19 @@
 // Serves the page of a live run and its events over HTTP.
 #include "tools/live/web/server.hpp"
 
+#include <arpa/inet.h>
 #include <httplib.h>
+#include <netinet/in.h>
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 #include <thread>
 
 #include "tools/common/failure.hpp"
@@ -23,10 +29,9 @@ using Clock = std::chrono::steady_clock;
 constexpr int kMostWatchers = 4;
 // One for each who watches, and two for those who ask for the page.
 constexpr size_t kThreads = kMostWatchers + 2;
-// One who takes nothing for so long is dropped, and so is one who takes an event so slowly. Short,
-// for the run does not end before.
-constexpr std::chrono::milliseconds kPatience(400);
-constexpr std::chrono::milliseconds kEventPatience(2000);
+// One who says or takes nothing for so long is dropped, and one who takes so long for an event.
+constexpr std::chrono::seconds kPatience(1);
+constexpr std::chrono::seconds kEventPatience(3);
 constexpr size_t kPart = 16384;
 // Two seconds of events: what waits in the system is not new any more when it arrives.
 constexpr int kSendBuffer = 1 << 19;
@@ -47,6 +52,23 @@ void set_socket_options(socket_t socket) {
   const int yes = 1;
   setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &kSendBuffer, sizeof kSendBuffer);
+}
+
+/// Ends the connections to our port, so that nobody waits for clients that say or take nothing. The
+/// library does not know them; the system does.
+void hang_up(int port) {
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", none)) {
+    const int file = std::atoi(entry.path().filename().c_str());
+    sockaddr_storage address{};
+    socklen_t size = sizeof address;
+    auto* const any = reinterpret_cast<sockaddr*>(&address);
+    if (getsockname(file, any, &size) != 0) continue;
+    int here = -1;
+    if (address.ss_family == AF_INET) here = reinterpret_cast<sockaddr_in*>(any)->sin_port;
+    if (address.ss_family == AF_INET6) here = reinterpret_cast<sockaddr_in6*>(any)->sin6_port;
+    if (here == htons(static_cast<uint16_t>(port))) shutdown(file, SHUT_RDWR);
+  }
 }
 
 }  // namespace
@@ -76,7 +98,7 @@ Server::Impl::Impl(Feed* feed, const Address& address, const std::string& token)
     : feed_(feed), token_(token) {
   http_.set_socket_options(set_socket_options);
   http_.set_keep_alive_max_count(1);
-  http_.set_keep_alive_timeout(0);
+  http_.set_keep_alive_timeout(kPatience.count());
   http_.set_read_timeout(kPatience);
   http_.set_write_timeout(kPatience);
   http_.set_payload_max_length(kMostRequest);
@@ -122,6 +144,7 @@ Server::Impl::~Impl() {
   ending_ = true;
   feed_->close();
   http_.stop();
+  hang_up(port_);
   thread_.join();
 }
 
