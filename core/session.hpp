@@ -100,7 +100,10 @@ class Session {
   /// Back to the state after create.
   Status reset();
   /// From here on, and until its memory is used otherwise, the session is not live().
-  void end() { mark_ = 0; }
+  void end() {
+    mark_ = 0;
+    Arena::give_back(memory_, memory_bytes_);
+  }
   bool live() const { return mark_ == kLiveMark; }
 
   // ---- pairs (session/pairs.cpp)

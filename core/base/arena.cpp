@@ -4,13 +4,40 @@
 
 #include <cstring>
 
+#ifdef UNISIM_ADDRESS_SANITIZER
+extern "C" void __asan_poison_memory_region(void const volatile* memory, size_t bytes);
+extern "C" void __asan_unpoison_memory_region(void const volatile* memory, size_t bytes);
+#endif
+
 namespace unisim {
+namespace {
+
+void close_gap(const void* memory, size_t bytes) {
+#ifdef UNISIM_ADDRESS_SANITIZER
+  __asan_poison_memory_region(memory, bytes);
+#else
+  static_cast<void>(memory);
+  static_cast<void>(bytes);
+#endif
+}
+
+}  // namespace
+
+void Arena::give_back(const void* memory, size_t bytes) {
+#ifdef UNISIM_ADDRESS_SANITIZER
+  __asan_unpoison_memory_region(memory, bytes);
+#else
+  static_cast<void>(memory);
+  static_cast<void>(bytes);
+#endif
+}
 
 Arena::Arena(void* memory, size_t bytes) : memory_(static_cast<unsigned char*>(memory)) {
   if (memory_ == nullptr) {
     ok_ = false;
     return;
   }
+  give_back(memory, bytes);
   const size_t misaligned = reinterpret_cast<uintptr_t>(memory) % kAlignment;
   const size_t skip = misaligned == 0 ? 0 : kAlignment - misaligned;
   memory_ += skip < bytes ? skip : bytes;
@@ -32,10 +59,11 @@ Arena& Arena::begin_part(const char* name) {
 }
 
 void* Arena::take_bytes(size_t count, size_t size) {
+  size_t bytes = 0;
   size_t padded = 0;
   const size_t start = used_;
-  const bool addressable = !__builtin_mul_overflow(count, size, &padded) &&
-                           !__builtin_add_overflow(padded, kAlignment - 1, &padded) &&
+  const bool addressable = !__builtin_mul_overflow(count, size, &bytes) &&
+                           !__builtin_add_overflow(bytes, kAlignment - 1 + kGap, &padded) &&
                            !__builtin_add_overflow(used_, padded / kAlignment * kAlignment, &used_);
   if (!addressable) {
     used_ = SIZE_MAX;
@@ -44,7 +72,9 @@ void* Arena::take_bytes(size_t count, size_t size) {
   if (part_ >= 0) parts_[part_].bytes += used_ - start;
   if (memory_ == nullptr) return nullptr;
   if (used_ > capacity_) ok_ = false;
-  return ok_ ? memory_ + start : nullptr;
+  if (!ok_) return nullptr;
+  close_gap(memory_ + start + bytes, used_ - start - bytes);
+  return memory_ + start;
 }
 
 }  // namespace unisim

@@ -9,12 +9,20 @@
 
 #include "core/base/span.hpp"
 
+#if defined(__SANITIZE_ADDRESS__)
+#define UNISIM_ADDRESS_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define UNISIM_ADDRESS_SANITIZER
+#endif
+#endif
+
 namespace unisim {
 
 /// Bytes taken under one name.
 struct ArenaPart {
   const char* name;  ///< static text
-  size_t bytes;      ///< padding to the alignment included
+  size_t bytes;      ///< padding to the alignment, and gaps, included
 };
 
 /// Hands out arrays one after another and never takes one back.
@@ -28,6 +36,13 @@ struct ArenaPart {
 class Arena {
  public:
   static constexpr size_t kAlignment = 64;  ///< of every array
+  /// Bytes behind each array that nobody may touch; the address sanitizer sees to that, and only
+  /// its builds have them.
+#ifdef UNISIM_ADDRESS_SANITIZER
+  static constexpr size_t kGap = kAlignment;
+#else
+  static constexpr size_t kGap = 0;
+#endif
   static constexpr int32_t kMaxParts = 24;
 
   Arena() = default;
@@ -51,6 +66,9 @@ class Arena {
     }
     return Span<T>(data, count);
   }
+
+  /// What was carved from the memory is gone: all of it may be touched again.
+  static void give_back(const void* memory, size_t bytes);
 
   bool dry() const { return memory_ == nullptr; }
   bool ok() const { return ok_; }

@@ -54,6 +54,8 @@ Status PlaceIndex::create(const PlaceIndexConfig& config, void* memory, size_t b
   const Span<unsigned char> place = take_index(arena);
   if (place.data() == nullptr) return Status::kOutOfMemory;
   *index = ::new (static_cast<void*>(place.data())) PlaceIndex(config, arena);
+  (*index)->memory_ = memory;
+  (*index)->memory_bytes_ = bytes;
   return Status::kOk;
 }
 

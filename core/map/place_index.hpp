@@ -45,7 +45,10 @@ class PlaceIndex {
   static Status create(const PlaceIndexConfig& config, void* memory, size_t bytes,
                        PlaceIndex** index);
   /// From here on, and until its memory is used otherwise, the index is not live().
-  void end() { mark_ = 0; }
+  void end() {
+    mark_ = 0;
+    Arena::give_back(memory_, memory_bytes_);
+  }
   bool live() const { return mark_ == kLiveMark; }
 
   /// Appends an entry; O(size * dimension), rarely a few times that when full.
@@ -82,6 +85,8 @@ class PlaceIndex {
   int32_t most_redundant() const;
 
   static constexpr uint32_t kLiveMark = 0x706c6163;  // unlikely in memory of another use
+  const void* memory_ = nullptr;
+  size_t memory_bytes_ = 0;
   uint32_t mark_ = kLiveMark;
   PlaceIndexConfig config_;
   int32_t size_ = 0;

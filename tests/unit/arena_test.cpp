@@ -33,8 +33,8 @@ struct Layout {
 TEST_CASE("a dry arena counts padded bytes and hands out no memory") {
   Arena dry;
   const Layout layout(dry);
-  CHECK(dry.used_bytes() == 64 + 128 + 128);
-  CHECK(dry.required_bytes() == 320 + 63);
+  CHECK(dry.used_bytes() == 64 + 128 + 128 + 3 * Arena::kGap);
+  CHECK(dry.required_bytes() == dry.used_bytes() + 63);
   CHECK(layout.numbers.data() == nullptr);
   CHECK(layout.numbers.size() == 9);
   CHECK(dry.ok());
@@ -47,9 +47,9 @@ TEST_CASE("bytes are listed by part, a repeated name goes on counting") {
   const Layout layout(dry);
   REQUIRE(dry.parts().size() == 2);
   CHECK(std::strcmp(dry.parts()[0].name, "bytes") == 0);
-  CHECK(dry.parts()[0].bytes == 64 + 128);
+  CHECK(dry.parts()[0].bytes == 64 + 128 + 2 * Arena::kGap);
   CHECK(std::strcmp(dry.parts()[1].name, "numbers") == 0);
-  CHECK(dry.parts()[1].bytes == 128);
+  CHECK(dry.parts()[1].bytes == 128 + Arena::kGap);
 }
 
 TEST_CASE("the counted bytes suffice at every alignment of the memory") {
@@ -114,6 +114,23 @@ TEST_CASE("elements start at their default value whatever the memory held") {
   Arena arena(memory.data(), memory.size());
   for (const double value : arena.take<double>(16)) CHECK(value == 0.0);
 }
+
+#ifdef UNISIM_ADDRESS_SANITIZER
+extern "C" int __asan_address_is_poisoned(void const volatile* address);
+
+TEST_CASE("the sanitizer sees what lies behind an array, until the memory is given back") {
+  std::vector<unsigned char> memory(1024);
+  Arena arena(memory.data(), memory.size());
+  const Span<unsigned char> first = arena.take<unsigned char>(3);
+  const Span<unsigned char> second = arena.take<unsigned char>(8);
+  CHECK_FALSE(__asan_address_is_poisoned(first.data() + 2));
+  CHECK(__asan_address_is_poisoned(first.data() + 3));
+  CHECK(__asan_address_is_poisoned(second.data() - 1));
+  CHECK(__asan_address_is_poisoned(second.data() + 8));
+  Arena::give_back(memory.data(), memory.size());
+  CHECK_FALSE(__asan_address_is_poisoned(first.data() + 3));
+}
+#endif
 
 TEST_CASE("no memory at all is not ok") {
   Arena arena(nullptr, 100);
