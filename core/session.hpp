@@ -162,6 +162,7 @@ class Session {
   Session(const SessionConfig& config, const SessionCapacity& capacity, Arena& arena);
 
   // session/pairs.cpp
+  Status check_gap(int32_t i, int32_t j) const;
   void accept_pair(const TwoViewInput& input, double log_ratio, double multiplier);
   void refuse_pair(int32_t j, RefusalReason reason, double value = 0.0, double limit = 0.0);
   void start_segment(int32_t keyframe, const Sim3& T_world_kf);

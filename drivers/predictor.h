@@ -52,6 +52,9 @@ typedef struct unisim_pair_prediction {
   unisim_depth_map depth_j;
   double focal_px;     /**< of the image, 0 if not known */
   double center_sigma; /**< see unisim_two_view; 0 if not known */
+  int32_t gap;         /**< T_i_j and depth_i are those of keyframe i - gap: the last one with a
+                            pose, the track was lost and found again at j; 0: of i */
+  int32_t reserved;    /**< 0 */
 } unisim_pair_prediction;
 
 /** Multi-view prediction of a window. */
@@ -88,6 +91,20 @@ typedef struct unisim_feature {
   int32_t placed; /**< 1: its place in space is known */
 } unisim_feature;
 
+/** A keyframe compared with an older one that looks like it. */
+typedef struct unisim_place_report {
+  int32_t keyframe;      /**< the newer one */
+  int32_t candidate;     /**< the older one */
+  int32_t lost;          /**< 1: the track was lost, 0: looked for a loop */
+  int32_t score;         /**< of the descriptors; says in which order candidates were tried */
+  int32_t matches;       /**< features that show the same landmark */
+  int32_t pose_inliers;  /**< matches that agree on a pose */
+  int32_t patch_inliers; /**< landmarks that look as they should from there */
+  int32_t in_view;       /**< of so many */
+  int32_t accepted;      /**< 1, or 0 with the reason */
+  const char* reason;    /**< static text */
+} unisim_place_report;
+
 /** Things worth knowing at the end of a run. */
 typedef struct unisim_predictor_info {
   double focal_px;       /**< last estimate, 0 if none */
@@ -101,6 +118,12 @@ typedef struct unisim_predictor_info {
   const char* no_start;  /**< while not initialised: one line of what was seen, why it gave no start
                             and what would help; NULL: nothing to tell. Borrowed until the next
                             call */
+  const struct unisim_place_report* places; /**< newest looks at places, in order; borrowed
+                                                until the next call */
+  int32_t place_count;                      /**< their number */
+  int32_t loops_tried;    /**< old keyframes looked at for a loop, in the whole run */
+  int32_t loops_accepted; /**< of these: counted loops */
+  int32_t relocalised;    /**< times a lost track was found again in the map */
 } unisim_predictor_info;
 
 /** A predictor. Free with destroy(predictor). Functions marked optional may be NULL. */

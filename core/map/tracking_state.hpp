@@ -12,7 +12,7 @@ enum class Tracking : int32_t {
   kTracking = 1,     ///< the last pair was accepted
   kDegraded = 2,     ///< the last pair was refused, the pose is held
   kLost = 3,         ///< `lost_after` pairs in a row were refused
-  kRelocalised = 4,  ///< a loop has just joined two segments
+  kRelocalised = 4,  ///< found again after a loss, or a loop has just joined two segments
 };
 
 /// State machine fed by the fate of each pair.
@@ -32,6 +32,7 @@ class TrackingState {
     if (lost && state_ != Tracking::kLost) ++lost_events_;
     state_ = lost ? Tracking::kLost : Tracking::kDegraded;
   }
+  void found_again() { state_ = Tracking::kRelocalised; }
   void segments_joined_by_loop() { state_ = Tracking::kRelocalised; }
 
   Tracking state() const { return state_; }

@@ -42,10 +42,15 @@ Status Session::add_keyframe(int64_t timestamp_ns, int32_t* id) {
 }
 
 Status Session::add_two_view(const TwoViewInput& input) {
-  if (input.i < 0 || input.j != input.i + 1) return Status::kInvalidArgument;
+  if (input.i < 0 || input.j <= input.i) return Status::kInvalidArgument;
   if (input.j >= map_.keyframes.size()) return Status::kNotReady;
   if (input.j <= map_.keyframes.settled()) return Status::kInvalidArgument;
   if (input.j != map_.keyframes.settled() + 1) return Status::kNotReady;
+  const bool over_gap = input.j != input.i + 1;
+  if (over_gap) {
+    const Status status = check_gap(input.i, input.j);
+    if (!is_ok(status)) return status;
+  }
 
   depth_.sample(input.depth_i, &sampled_);
   double log_ratio = 0.0;
@@ -77,8 +82,24 @@ Status Session::add_two_view(const TwoViewInput& input) {
     return Status::kOk;
   }
   accept_pair(input, log_ratio, multiplier);
+  if (over_gap) {
+    tracking_.found_again();
+    map_.keyframes[input.j].state = tracking_.state();
+  }
   make_node_room();
   return broken() ? Status::kInternal : Status::kOk;
+}
+
+/// A pair may leave out keyframes only where the track was lost: those have no pose, or lie in a
+/// segment of their own.
+Status Session::check_gap(int32_t i, int32_t j) const {
+  if (map_.keyframes.gone(i) || map_.keyframes[i].retired()) return Status::kRetired;
+  if (map_.keyframes[i].node < 0) return Status::kInvalidArgument;
+  for (int32_t k = i + 1; k < j; ++k) {
+    const bool same = map_.keyframes[k].segment == map_.keyframes[i].segment;
+    if (map_.keyframes[k].posed() && same) return Status::kInvalidArgument;
+  }
+  return Status::kOk;
 }
 
 void Session::accept_pair(const TwoViewInput& input, double log_ratio, double multiplier) {

@@ -21,6 +21,12 @@ void unisim_geometric_config_init(unisim_geometric_config* config, size_t struct
   defaults.background = 1;
   defaults.revive_age = 100;
   defaults.revive_tries = 150;
+  defaults.places = 1;
+  defaults.loop_gap = 20;
+  defaults.loop_tries = 3;
+  defaults.min_pnp = 8;
+  defaults.min_inliers = 20;
+  defaults.min_share = 0.2;
   std::memcpy(config, &defaults, std::min(struct_size, sizeof(defaults)));
 }
 
@@ -67,6 +73,11 @@ std::string read_config(const unisim_geometric_config* in, unisim_geometric_conf
       {"background", out->background, 0, 1},
       {"revive_age", out->revive_age, 0, 1000000},
       {"revive_tries", out->revive_tries, 0, out->max_tracks},
+      {"places", out->places, 0, 1},
+      {"loop_gap", out->loop_gap, 6, 100000},
+      {"loop_tries", out->loop_tries, 0, 50},
+      {"min_pnp", out->min_pnp, 6, 1000},
+      {"min_inliers", out->min_inliers, 6, 1000},
   };
   for (const Range& range : ranges) {
     if (range.value >= range.least && range.value <= range.most) continue;
@@ -75,6 +86,9 @@ std::string read_config(const unisim_geometric_config* in, unisim_geometric_conf
   }
   if (!std::isfinite(out->focal_px) || out->focal_px < 0) {
     return "geometric: focal_px must be a positive number of pixels, or 0 to estimate it";
+  }
+  if (!(out->min_share >= 0 && out->min_share <= 1)) {
+    return "geometric: min_share must be 0 to 1";
   }
   const unisim_image& mask = out->mask;
   if (mask.data != nullptr && (mask.format != UNISIM_PIXEL_GRAY8 || mask.width < 1 ||

@@ -35,6 +35,15 @@ typedef struct unisim_geometric_config {
   double focal_px;          /**< known focal length in pixels; 0: estimate it (0) */
   unisim_image mask;        /**< GRAY8, of the frames' size: where it is 0 nothing is looked at (the
                                robot's own body, a text in the image); data NULL: look everywhere */
+  int32_t places;      /**< 1: places are recognised: a lost camera is found in the map, loops are
+                          closed (1) */
+  int32_t loop_gap;    /**< keyframes between the two ends of a loop, at least (20) */
+  int32_t loop_tries;  /**< old keyframes looked at for a loop, per second keyframe; 0: no loops
+                          (3) */
+  int32_t min_pnp;     /**< matched features that must agree on a pose (8) */
+  int32_t min_inliers; /**< landmarks that must look there as they did (20) */
+  int32_t reserved2;   /**< 0 */
+  double min_share;    /**< and the share of those in view, 0..1 (0.2) */
 } unisim_geometric_config;
 
 /** Defaults for every field.

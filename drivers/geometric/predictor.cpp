@@ -238,6 +238,7 @@ void info(unisim_predictor* predictor, unisim_predictor_info* out) {
   out->initialised = counts.started > 0 ? 1 : 0;
   out->restarts = counts.restarts;
   out->rotation_only = counts.rotation_only;
+  me->mapper->places().info(out);
   out->state_bytes = me->mapper->bytes() + me->predictions->bytes();
   if (out->initialised == 0) return;
   out->focal_px = intrinsics.camera.focal_px;

@@ -66,9 +66,14 @@ Step MapBuilder::serve_pair(const unisim_request& request, bool* pending) {
     return reject(request, MessageKind::kPairRejected, predictor_message());
   }
   const int32_t j = request.keyframe_ids[1];
-  const unisim_status status = parts_.session->add_two_view(request.keyframe_ids[0], j, prediction);
+  const unisim_status status =
+      parts_.session->add_two_view(request.keyframe_ids[0] - prediction.gap, j, prediction);
   if (status == UNISIM_ERR_INVALID_ARGUMENT) {
     return reject(request, MessageKind::kInvalid, "prediction is not finite or has a wrong size");
+  }
+  if (status == UNISIM_ERR_RETIRED) {
+    return reject(request, MessageKind::kPairRejected,
+                  "was lost for too long to be tied to the map");
   }
   if (status != UNISIM_OK) return session_failed("unisim_add_two_view", status);
   last_settled_ = j;

@@ -123,6 +123,7 @@ void encode_pair(const unisim_pair_prediction& pair, RecordBytes* out) {
   out->put(PairData{pair.focal_px, pair.center_sigma, pair.T_i_j});
   encode_depth(pair.depth_i, out);
   encode_depth(pair.depth_j, out);
+  if (pair.gap != 0) out->put(PairGap{pair.gap, 0});
 }
 
 void encode_window(const unisim_window_prediction& window, RecordBytes* out) {
@@ -152,7 +153,14 @@ Decoded decode_pair(std::size_t size, DecodedArrays* arrays, unisim_pair_predict
   if (!finite(numbers, 2) || !finite(pair->T_i_j)) {
     return fail(Decoded::kNotFinite, "pose, focal length or sigma is not a number", problem);
   }
-  *out = {pair->T_i_j, arrays->depth[0], arrays->depth[1], pair->focal_px, pair->center_sigma};
+  const PairGap* gap = cursor.take<PairGap>(1);
+  *out = {pair->T_i_j,
+          arrays->depth[0],
+          arrays->depth[1],
+          pair->focal_px,
+          pair->center_sigma,
+          gap != nullptr ? gap->gap : 0,
+          0};
   return Decoded::kOk;
 }
 

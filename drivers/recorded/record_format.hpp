@@ -132,6 +132,12 @@ struct PairData {
   unisim_sim3 T_i_j;
 };
 
+/// After the depth maps of a pair over a gap; others end there.
+struct PairGap {
+  std::int32_t gap;
+  std::int32_t reserved;
+};
+
 /// Data of an answered window, before ids, poses and depth maps of its `count` views.
 struct WindowData {
   double focal_px;

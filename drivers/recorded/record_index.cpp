@@ -165,9 +165,15 @@ const char* RecordIndex::set_info(const RecordRef& record, const AlignedBytes& k
       !std::isfinite(info.radial_k1)) {
     return "focal length or distortion is not a number";
   }
-  info_ = {info.focal_px,      info.focal_sigma_px, info.radial_k1,
-           info.state_bytes,   info.initialised,    info.restarts,
-           info.rotation_only, info.static_frames,  nullptr};
+  info_ = {};
+  info_.focal_px = info.focal_px;
+  info_.focal_sigma_px = info.focal_sigma_px;
+  info_.radial_k1 = info.radial_k1;
+  info_.state_bytes = info.state_bytes;
+  info_.initialised = info.initialised;
+  info_.restarts = info.restarts;
+  info_.rotation_only = info.rotation_only;
+  info_.static_frames = info.static_frames;
   return nullptr;
 }
 

@@ -75,6 +75,42 @@ TEST_CASE("a good pair after rejected ones starts a segment at the held pose") {
   CHECK(host.optimize().final_cost < 1e-10);
 }
 
+TEST_CASE("a pair over a gap goes on in the segment and says that the track was found again") {
+  World world(40, 6U);
+  Host host(config_of(16));
+  feed_pairs(host, world, 0, 4);
+  feed_rejected(host, 3);
+  host.add_keyframe();
+  const Pair over = world.pair(4, 8);
+  REQUIRE(host.add_pair(over) == UNISIM_OK);
+  CHECK(host.info().state == UNISIM_STATE_RELOCALISED);
+  CHECK(host.info().segments == 1);
+  CHECK(host.pose(8).state == UNISIM_STATE_RELOCALISED);
+  CHECK(host.pose(8).segment == 0);
+  CHECK(host.pose(6).confidence == 0);
+  feed_pairs(host, world, 9, 12);
+  CHECK(host.info().state == UNISIM_STATE_TRACKING);
+  CHECK(host.info().posed_keyframes == 10);
+  CHECK(host.optimize().final_cost < 1e-10);
+  const Sim3 moved = from_c(host.pose(4).T_world_kf).inverse() * from_c(host.pose(12).T_world_kf);
+  const Sim3 truth = between(world.truth(4), world.truth(12));
+  const double length = moved.t.norm() / truth.t.norm();
+  CHECK((moved.t / length - truth.t).norm() < 1e-6 * truth.t.norm());
+}
+
+TEST_CASE("a pair may leave out only keyframes without a pose") {
+  World world(40, 6U);
+  Host host(config_of(16));
+  feed_pairs(host, world, 0, 4);
+  host.add_keyframe();
+  CHECK(host.add_pair(world.pair(3, 5)) == UNISIM_ERR_INVALID_ARGUMENT);
+  REQUIRE(host.reject_pair() == UNISIM_OK);
+  host.add_keyframe();
+  CHECK(host.add_pair(world.pair(3, 6)) == UNISIM_ERR_INVALID_ARGUMENT);
+  CHECK(host.add_pair(world.pair(6, 6)) == UNISIM_ERR_INVALID_ARGUMENT);
+  CHECK(host.add_pair(world.pair(4, 6)) == UNISIM_OK);
+}
+
 TEST_CASE("pairs rejected before the first good one leave the session in INIT") {
   World world(40, 6U);
   Host host(config_of(16));

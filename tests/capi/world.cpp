@@ -78,16 +78,16 @@ Sim3 World::pose(const Sim3& T, double unit) {
   return predicted;
 }
 
-Pair World::pair(int32_t i) {
+Pair World::pair(int32_t i, int32_t j) {
   const double unit = std::exp(normal(noise_.unit));
   Pair pair;
   pair.two_view = {};
   pair.two_view.struct_size = sizeof pair.two_view;
   pair.two_view.i = i;
-  pair.two_view.j = i + 1;
-  pair.two_view.T_i_j = to_c(pose(between(truth(i), truth(i + 1)), unit));
+  pair.two_view.j = j;
+  pair.two_view.T_i_j = to_c(pose(between(truth(i), truth(j)), unit));
   pair.depth_i = depth(i, unit);
-  pair.depth_j = depth(i + 1, unit);
+  pair.depth_j = depth(j, unit);
   return pair;
 }
 

@@ -64,7 +64,8 @@ class World {
   int32_t size() const { return static_cast<int32_t>(truth_.size()); }
   const Sim3& truth(int32_t id) const { return truth_[static_cast<size_t>(id)]; }
   /// Predictions of one inference, a new random unit each time.
-  Pair pair(int32_t i);
+  Pair pair(int32_t i) { return pair(i, i + 1); }
+  Pair pair(int32_t i, int32_t j);
   Views views(const std::vector<int32_t>& ids);
 
  private:

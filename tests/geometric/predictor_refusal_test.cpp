@@ -28,8 +28,10 @@ TEST_CASE("a turn on the spot is recognised and not taken for a movement") {
   CHECK(run.info().rotation_only > 0);
 }
 
-TEST_CASE("blind frames are refused and a new segment begins after them") {
-  PredictorRun run(default_config());
+TEST_CASE("blind frames are refused and a new segment begins after them without places") {
+  unisim_geometric_config config = default_config();
+  config.places = 0;
+  PredictorRun run(config);
   run.show_path(walk, 60, 3);
   REQUIRE(run.pair(run.keyframes() - 2) == UNISIM_PREDICTION_OK);
   const GrayImage black(static_cast<std::size_t>(kWidth) * kHeight, 0);

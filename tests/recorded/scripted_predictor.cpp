@@ -78,7 +78,7 @@ int two_view(unisim_predictor* predictor, int32_t i, int32_t j, unisim_pair_pred
   }
   fill_maps(scripted, {static_cast<double>(i), static_cast<double>(j)});
   const double focal = 500.0 + scripted.newest / 3.0;
-  *out = {pose_of(j), scripted.maps[0], scripted.maps[1], focal, 0.001 * j};
+  *out = {pose_of(j), scripted.maps[0], scripted.maps[1], focal, 0.001 * j, i == 6 ? 2 : 0, 0};
   return UNISIM_PREDICTION_OK;
 }
 
@@ -151,7 +151,7 @@ int finish(unisim_predictor* predictor) {
 }
 
 void info(unisim_predictor*, unisim_predictor_info* out) {
-  *out = {525.5, 1.0 / 3.0, -0.033, 4096, 1, 2, 3, 4, nullptr};
+  *out = {525.5, 1.0 / 3.0, -0.033, 4096, 1, 2, 3, 4, nullptr, nullptr, 0, 0, 0, 0};
 }
 
 const char* message(unisim_predictor* predictor) { return self(predictor).text.c_str(); }

@@ -118,6 +118,7 @@ class Runner {
       line.add(pair.depth_j);
       line.add(pair.focal_px);
       line.add(pair.center_sigma);
+      line.add(static_cast<double>(pair.gap));
     }
     note(line, status);
     return status != UNISIM_PREDICTION_PENDING;

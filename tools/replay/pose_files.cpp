@@ -68,4 +68,16 @@ std::string keyframe_table(const std::vector<KeyframeRow>& rows) {
   return text;
 }
 
+std::string place_table(const unisim_predictor_info& info) {
+  std::string text =
+      "keyframe,candidate,asked,score,matches,pose_inliers,patch_inliers,in_view,accepted,reason\n";
+  for (int32_t k = 0; k < info.place_count; ++k) {
+    const unisim_place_report& report = info.places[k];
+    append(&text, "%d,%d,%s,%d,%d,%d,%d,%d,%d,%s\n", report.keyframe, report.candidate,
+           report.lost != 0 ? "lost" : "loop", report.score, report.matches, report.pose_inliers,
+           report.patch_inliers, report.in_view, report.accepted, report.reason);
+  }
+  return text;
+}
+
 }  // namespace unisim::replay

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/predictor.h"
 #include "tools/replay/run_data.hpp"
 
 namespace unisim::replay {
@@ -23,5 +24,8 @@ std::string trajectory_text(const std::string& title, const std::vector<unisim_s
 
 /// CSV: one line per keyframe that has a pose.
 std::string keyframe_table(const std::vector<KeyframeRow>& rows);
+
+/// CSV: one line per older keyframe that a keyframe was compared with, and what came of it.
+std::string place_table(const unisim_predictor_info& info);
 
 }  // namespace unisim::replay

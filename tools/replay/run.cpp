@@ -35,7 +35,7 @@ constexpr int32_t kUnknownLengthKeyframes = 1024;
 
 std::vector<std::string> output_names(const Options& options) {
   std::vector<std::string> names = {"trajectory.tum", "trajectory_live.tum", "keyframes.csv",
-                                    "summary.json"};
+                                    "places.csv", "summary.json"};
   names.emplace_back("map.ply");
   if (options.settings.pipeline.every_frame) names.emplace_back("trajectory_frames.tum");
   if (options.report) names.emplace_back("report.html");
@@ -162,6 +162,7 @@ void write_files(const Run& run, OutputFolder* folder) {
                        trajectory_text("all frames, final poses", run.data.frames, scale));
   }
   folder->write_text("keyframes.csv", keyframe_table(run.data.keyframes));
+  folder->write_text("places.csv", place_table(run.result.predictor));
   folder->write_text("summary.json", tools::json_text(summary_json(run), 1) + "\n");
 }
 

@@ -42,6 +42,7 @@ class RunOptions {
   std::optional<double> focal_;
   std::vector<std::string> disabled_;
   bool every_frame_ = false;
+  bool no_loop_ = false;
   bool batch_ = false;
   std::string model_;
   std::optional<int32_t> threads_;

@@ -72,7 +72,13 @@ void add_geometric_fields(unisim_geometric_config* c, std::vector<Field>* fields
        {s, "background", &c->background, Range::whole(0, 1)},
        {s, "revive_age", &c->revive_age, Range::whole(0, 1000000)},
        {s, "revive_tries", &c->revive_tries, Range::whole(0, 2000)},
-       {s, "focal_px", &c->focal_px, Range::number(0.0, kMostFocalPx)}});
+       {s, "focal_px", &c->focal_px, Range::number(0.0, kMostFocalPx)},
+       {s, "places", &c->places, Range::whole(0, 1)},
+       {s, "loop_gap", &c->loop_gap, Range::whole(6, 100000)},
+       {s, "loop_tries", &c->loop_tries, Range::whole(0, 50)},
+       {s, "min_pnp", &c->min_pnp, Range::whole(6, 1000)},
+       {s, "min_inliers", &c->min_inliers, Range::whole(6, 1000)},
+       {s, "min_share", &c->min_share, Range::number(0.0, 1.0)}});
 }
 
 void add_onnx_fields(unisim_onnx_config* c, std::vector<Field>* fields) {

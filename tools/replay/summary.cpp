@@ -44,7 +44,6 @@ Json protocol_json(const Run& run) {
           {"poses_live", run.scores.live_poses},
           {"window", o.settings.session.window_size},
           {"overlap", o.settings.session.window_overlap},
-          {"loops", "not built"},
           {"realtime", o.settings.pipeline.realtime}};
 }
 
@@ -58,6 +57,15 @@ Json segments_json(const Scores& scores) {
          {"ate_rmse_m", segment.ate_rmse_m ? Json(*segment.ate_rmse_m) : Json(nullptr)}});
   }
   return list;
+}
+
+/// What the predictor says of its loops: those it counts, and those it looked at and left.
+Json loops_json(const Run& run) {
+  const unisim_predictor_info& info = run.result.predictor;
+  return {{"candidates", info.loops_tried},
+          {"accepted", info.loops_accepted},
+          {"rejected", info.loops_tried - info.loops_accepted},
+          {"undone", 0}};
 }
 
 Json lanes_json(const pipeline::LaneReport& lanes) {
@@ -165,7 +173,7 @@ Json summary_json(const Run& run) {
           {"frames_dropped", progress.frames_dropped},
           {"keyframes", info.keyframes},
           {"submaps", info.submaps},
-          {"loops", {{"candidates", 0}, {"accepted", 0}, {"rejected", 0}, {"undone", 0}}},
+          {"loops", loops_json(run)},
           {"ate_rmse_m", rmse_of(scores.ate)},
           {"ate_live_rmse_m", rmse_of(scores.live)},
           {"rpe_trans_rmse_m", scores.rpe ? Json(scores.rpe->translation.rmse) : Json(nullptr)},
@@ -174,6 +182,7 @@ Json summary_json(const Run& run) {
           {"coverage", coverage(run.data)},
           {"keyframes_unposed", info.keyframes - info.posed_keyframes},
           {"lost_events", info.lost_events},
+          {"relocalised", run.result.predictor.relocalised},
           {"segment_scores", segments_json(run.scores)},
           {"segments", info.segments},
           {"pairs_refused", info.pairs_refused},

@@ -57,11 +57,12 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_keyframe(unisim_session* se
                                                               const unisim_keyframe* keyframe,
                                                               int32_t* id);
 
-/** Two-view prediction of consecutive keyframes i and j = i + 1, in a unit of its own. */
+/** Two-view prediction of consecutive keyframes i and j, in a unit of its own. j is i + 1, or,
+ *  where the track was lost and found again, the next keyframe of the segment. */
 typedef struct unisim_two_view {
   uint32_t struct_size;     /**< sizeof this struct, set by the caller */
   int32_t i;                /**< earlier keyframe */
-  int32_t j;                /**< i + 1 */
+  int32_t j;                /**< i + 1, or further on over keyframes of no or other segments */
   int32_t reserved;         /**< 0 */
   unisim_sim3 T_i_j;        /**< camera j to camera i, scale 1 */
   unisim_depth_map depth_i; /**< same unit as T_i_j */
@@ -70,7 +71,9 @@ typedef struct unisim_two_view {
                             0: not known, the scatter of the depth ratios stands in */
 } unisim_two_view;
 
-/** Add the two-view prediction of keyframes i and i + 1: sets the live pose of i + 1.
+/** Add the two-view prediction of keyframes i and j: sets the live pose of j, and answers the
+ *  UNISIM_REQUEST_PAIR of j - 1 and j. Over a gap, where the pairs of all keyframes between were
+ *  refused, the state becomes UNISIM_STATE_RELOCALISED and no new segment begins.
  *
  *  depth_i is compared with the depth keyframe i had in the pair before: that ratio carries scale
  *  along the chain. With fewer than 16 grid cells in common it is taken as 1 and the edge counts a
@@ -79,8 +82,9 @@ typedef struct unisim_two_view {
  *  @param[in] two_view see unisim_two_view
  *  @return UNISIM_OK (refused for its quality too: then unisim_get_info() counts it and says why,
  *          the pose is held and the state is DEGRADED or LOST); UNISIM_ERR_INVALID_ARGUMENT on
- * NULL, non-finite numbers, scale other than 1, ids not consecutive or already given;
- *          UNISIM_ERR_NOT_READY when keyframe j or the pair before is not there yet */
+ * NULL, non-finite numbers, scale other than 1, ids not consecutive (one between is of
+ * i's segment, i has no pose) or already given; UNISIM_ERR_RETIRED when i, before a gap, has left
+ * the sliding window; UNISIM_ERR_NOT_READY when keyframe j or the pair before is not there yet */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_two_view(unisim_session* session,
                                                               const unisim_two_view* two_view);
 

@@ -17,6 +17,9 @@ constexpr double kMeanWindow = 31;  // pixels
 constexpr double kContrastStep = 0.05;  // of the log
 // A gain is given back slowly: nothing else would, when the light has changed for good.
 constexpr double kGainKept = 0.98;  // from frame to frame
+// Grey levels, the noise of a sensor: the camera is covered. What comes after is no change of
+// light.
+constexpr double kDark = 2.0;
 }  // namespace
 
 int odd_window(double pixels, const cv::Size& image) {
@@ -26,6 +29,11 @@ int odd_window(double pixels, const cv::Size& image) {
 
 double ImagePreparation::steady_gain() {
   const double square = cv::norm(gray_, mean_, cv::NORM_L2SQR) / static_cast<double>(gray_.total());
+  if (square < kDark * kDark) {
+    first_ = true;
+    log_gain_ = 0;
+    return 1;
+  }
   const double log_contrast = 0.5 * std::log(std::max(1.0, square));
   const double step = first_ ? 0 : log_contrast - log_contrast_;
   log_contrast_ = log_contrast;

@@ -22,14 +22,17 @@ BackgroundAdjustment::BackgroundAdjustment(const BundleCapacity& capacity, const
   ratios_.reserve(static_cast<size_t>(map.observations_per_keyframe));
 }
 
-void BackgroundAdjustment::start(const State& state, int32_t keyframe, int iterations) {
+void BackgroundAdjustment::start(const State& state, int32_t keyframe, int iterations,
+                                 std::vector<LoopObservation>* loops) {
+  loops_.swap(*loops);
+  loops->clear();
   keyframes_.clear();
   for (int32_t k = state.map.first_id(); k <= keyframe; ++k) {
     const Keyframe& from = state.map.keyframe(k);
     if (from.posed && from.segment == state.segment) keyframes_.push_back(k);
   }
   choose_spread();
-  adjustment_.build(state, keyframes_.data(), keyframes_.size());
+  adjustment_.build(state, keyframes_.data(), keyframes_.size(), &loops_);
   segment_ = state.segment;
   started_at_ = keyframe;
   iterations_ = iterations;
@@ -121,6 +124,15 @@ void BackgroundAdjustment::take(State* state) {
   state->intrinsics.log_focal_sigma = log_focal_sigma_;
 }
 
+void BackgroundAdjustment::take_loops(State* state) {
+  for (const LoopObservation& seen : loops_) {
+    const Landmark& mark = state->map.landmark(seen.landmark);
+    if (mark.generation != seen.generation || mark.state != LandmarkState::kPlaced) continue;
+    if (!state->map.holds(seen.keyframe)) continue;
+    static_cast<void>(state->map.observe_in(seen.keyframe, seen.landmark, seen.point));
+  }
+}
+
 bool BackgroundAdjustment::merge(State* state) {
   pending_ = false;
   worker_.wait();
@@ -128,6 +140,7 @@ bool BackgroundAdjustment::merge(State* state) {
   if (!state->map.holds(keyframes_.back())) return false;
   move_rest(move_of_newest(*state), state);
   take(state);
+  take_loops(state);
   std::vector<int32_t>& all = keyframes_;
   all.clear();
   for (int32_t k = state->map.first_id(); k < state->map.end_id(); ++k) {

@@ -29,7 +29,10 @@ class BackgroundAdjustment {
   double spread_sigma() const { return spread_sigma_; }
 
   /// Copies the segment's posed keyframes and begins.
-  void start(const State& state, int32_t keyframe, int iterations);
+  /// @param loops observations to take in, by landmark and keyframe; emptied. merge() puts those
+  ///              that fit then into the map
+  void start(const State& state, int32_t keyframe, int iterations,
+             std::vector<LoopObservation>* loops);
   /// Waits for the result and takes it into the state; what was added meanwhile moves along.
   /// Throws what the adjustment threw. @return false when the result no longer fits (the segment
   /// ended)
@@ -49,10 +52,12 @@ class BackgroundAdjustment {
   Move move_of_newest(const State& state);
   void move_rest(const Move& move, State* state);
   void take(State* state);
+  void take_loops(State* state);
 
   MapAdjustment adjustment_;
   std::vector<int32_t> keyframes_;
   std::vector<int32_t> spread_;
+  std::vector<LoopObservation> loops_;
   std::vector<double> ratios_;
   std::vector<uint8_t> adjusted_;  // by landmark: is in the problem
   int32_t segment_ = 0;

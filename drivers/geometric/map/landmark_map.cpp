@@ -102,6 +102,30 @@ bool LandmarkMap::observe(int32_t slot, const cv::Point2f& at) {
   return true;
 }
 
+bool LandmarkMap::observe_in(int32_t id, int32_t slot, const cv::Point2f& at) {
+  Keyframe& target = keyframe(id);
+  Landmark& mark = landmark(slot);
+  if (static_cast<size_t>(target.observations) == per_keyframe_) return false;
+  ObservationRef before;
+  ObservationRef after = mark.first;
+  while (after.valid() && after.keyframe < id) {
+    before = after;
+    after = observation(after).next;
+  }
+  if (after.valid() && after.keyframe == id) return false;
+  const ObservationRef ref{id, target.observations++};
+  Observation& seen = observation(ref);
+  seen = Observation{};
+  seen.landmark = slot;
+  seen.x = at.x;
+  seen.y = at.y;
+  seen.next = after;
+  (before.valid() ? observation(before).next : mark.first) = ref;
+  if (!after.valid()) mark.last = ref;
+  ++mark.observations;
+  return true;
+}
+
 void LandmarkMap::free_abandoned() {
   for (int32_t slot = 0; slot < landmark_capacity(); ++slot) {
     const Landmark& mark = landmark(slot);

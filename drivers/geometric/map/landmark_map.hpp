@@ -84,6 +84,8 @@ class LandmarkMap {
 
   /// Adds an observation in the newest keyframe. @return false when the keyframe is full
   bool observe(int32_t slot, const cv::Point2f& at);
+  /// Adds an observation in an older keyframe. @return false when it is full or has the landmark
+  bool observe_in(int32_t keyframe, int32_t slot, const cv::Point2f& at);
   Observation& observation(const ObservationRef& ref) {
     return observations_[slot_of(ref.keyframe) * per_keyframe_ + static_cast<size_t>(ref.index)];
   }

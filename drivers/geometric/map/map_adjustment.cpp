@@ -25,7 +25,9 @@ MapAdjustment::MapAdjustment(const BundleCapacity& capacity, const MapCapacity& 
   camera_scratch_.reserve(static_cast<size_t>(capacity.cameras));
 }
 
-void MapAdjustment::build(const State& state, const int32_t* ids, size_t count) {
+void MapAdjustment::build(const State& state, const int32_t* ids, size_t count,
+                          const std::vector<LoopObservation>* loops) {
+  static const std::vector<LoopObservation> kNone;
   problem_.clear();
   keyframes_.clear();
   landmarks_.clear();
@@ -34,7 +36,7 @@ void MapAdjustment::build(const State& state, const int32_t* ids, size_t count) 
   state.intrinsics.give(state.early(), &problem_.intrinsics);
   collect_landmarks(state, ids, count);
   add_cameras(state, ids, count);
-  for (const int32_t slot : wanted_) add_landmark(state, slot);
+  for (const int32_t slot : wanted_) add_landmark(state, slot, loops != nullptr ? *loops : kNone);
 }
 
 void MapAdjustment::collect_landmarks(const State& state, const int32_t* ids, size_t count) {
@@ -69,15 +71,30 @@ void MapAdjustment::add_cameras(const State& state, const int32_t* ids, size_t c
   }
 }
 
-void MapAdjustment::add_landmark(const State& state, int32_t slot) {
+void MapAdjustment::add_landmark(const State& state, int32_t slot,
+                                 const std::vector<LoopObservation>& loops) {
   const Landmark& mark = state.map.landmark(slot);
   if (problem_.add_point(mark.position) < 0) return;
   int views = 0;
+  auto again = std::lower_bound(
+      loops.begin(), loops.end(), slot,
+      [](const LoopObservation& seen, int32_t landmark) { return seen.landmark < landmark; });
+  // Cameras of a point come in ascending order; one that sees it anyway keeps what it sees.
+  const auto add_loops_before = [&](int32_t keyframe) {
+    for (; again != loops.end() && again->landmark == slot && again->keyframe < keyframe; ++again) {
+      const int32_t camera = camera_of_[place(again->keyframe)];
+      if (camera < 0 || again->generation != mark.generation) continue;
+      const cv::Point2f& at = again->point;
+      views += problem_.add_observation(camera, at.x, at.y, 1.0) ? 1 : 0;
+    }
+  };
   state.map.for_each_observation(slot, [&](const ObservationRef& ref, const Observation& seen) {
+    add_loops_before(ref.keyframe);
     const int32_t camera = camera_of_[place(ref.keyframe)];
     if (camera < 0 || !state.map.counts(ref)) return;
     views += problem_.add_observation(camera, seen.x, seen.y, 1.0) ? 1 : 0;
   });
+  add_loops_before(state.map.end_id());
   if (views < kMinViews) {
     problem_.drop_point();
     return;

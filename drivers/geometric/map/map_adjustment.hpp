@@ -18,7 +18,9 @@ class MapAdjustment {
   /// Sets up the keyframes `ids` (ascending, posed) as free cameras with every placed landmark seen
   /// in them. Landmarks that reach back bring the keyframe that saw them first as a fixed camera:
   /// these hold the scale.
-  void build(const State& state, const int32_t* ids, size_t count);
+  /// @param loops more observations, by landmark and keyframe; NULL: none
+  void build(const State& state, const int32_t* ids, size_t count,
+             const std::vector<LoopObservation>* loops = nullptr);
 
   BundleResult solve(int iterations, double tolerance);
   /// Precision over the given keyframes at the present state of the problem.
@@ -39,7 +41,7 @@ class MapAdjustment {
  private:
   void collect_landmarks(const State& state, const int32_t* ids, size_t count);
   void add_cameras(const State& state, const int32_t* ids, size_t count);
-  void add_landmark(const State& state, int32_t slot);
+  void add_landmark(const State& state, int32_t slot, const std::vector<LoopObservation>& loops);
   size_t place(int32_t keyframe) const { return static_cast<size_t>(keyframe) % camera_of_.size(); }
 
   BundleProblem problem_;

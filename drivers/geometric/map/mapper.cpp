@@ -13,7 +13,14 @@ namespace unisim::geometric {
 namespace {
 
 constexpr double kSpacing = 0.6;  // of the mean distance between evenly spread features
-constexpr int kMaxLostInRow = 2;  // keyframes without pose until a new segment begins
+// Keyframes without pose until a new segment begins, and the time it takes at least: as long a
+// hand, a blur or a white wall is waited for. With keyframes so dense, or times so wrong, that it
+// never passes, many keyframes do.
+constexpr int kMaxLostInRow = 2;
+constexpr int kManyLostInRow = 15;
+constexpr int64_t kWaitNs = 500000000;
+constexpr int32_t kLoopGap = 10;  // keyframes from one adjustment to the next when a loop waits
+constexpr int kLoopIterations = 6;
 constexpr int kEarlyIterations = 8;
 constexpr int kWindowIterations = 4;
 constexpr double kWindowTolerance = 1e-2;
@@ -64,6 +71,7 @@ double angle_between(const CameraPose& a, const CameraPose& b) {
 Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
     : state_(config, map_capacity(config)),
       patches_(config.max_landmarks),
+      places_(state_.config, static_cast<size_t>(per_keyframe(config))),
       window_(window_capacity(config), map_capacity(config)),
       background_(whole_capacity(config), map_capacity(config), config.background != 0) {
   state_.size = size;
@@ -74,6 +82,7 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
   state_.intrinsics = Intrinsics::start(size, config.focal_px);
   const auto tracks = static_cast<size_t>(per_keyframe(config));
   state_.tracks.reserve(tracks);
+  places_.open(size);
   front_end_.open(size, config.max_tracks, state_.feature_spacing, config.mask);
   poses_.reserve(tracks);
   growth_.reserve(tracks, static_cast<size_t>(config.max_keyframes));
@@ -85,6 +94,7 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
 
 void Mapper::see(const unisim_frame& frame) {
   frame_ = frame.index;
+  time_ns_ = frame.timestamp_ns;
   front_end_.see(frame.image, &state_.tracks);
   if (front_end_.jumped()) tell_zoom(frame_);
   if (counts_.started == 0) start_.see_frame(front_end_.gray());
@@ -136,7 +146,7 @@ bool Mapper::add_keyframe(int32_t id) {
   }
   if (state_.initialised) {
     track(id);
-  } else {
+  } else if (counts_.started == 0 || !relocalise(id)) {
     try_start(id);
   }
   front_end_.end_keyframe(&state_.tracks);
@@ -159,15 +169,25 @@ void Mapper::try_start(int32_t id) {
   if (++counts_.started == 1 && start_.two_eyes()) remark_ = kTwoEyes;
   note_motion(id);
   revive_.store_patches(state_, front_end_.current(), id, &patches_);
+  places_.keep(look(id));
+}
+
+Places::Look Mapper::look(int32_t id) const {
+  return {state_, front_end_.gray(), front_end_.current(), patches_, id};
 }
 
 void Mapper::track(int32_t id) {
   if (zoom_.see_keyframe(state_, id, frame_)) tell_zoom(zoom_.begin());
-  FramePose found = poses_.solve_new(state_, id);
-  if (!found.good) {
+  const FramePose found = poses_.solve_new(state_, id);
+  if (found.good) {
+    take_pose(id, found);
+  } else {
     lose(id);
-    return;
   }
+}
+
+void Mapper::take_pose(int32_t id, const FramePose& first) {
+  FramePose found = first;
   Keyframe& newest = state_.map.push_keyframe(id, state_.segment);
   newest.pose = found.pose;
   newest.posed = true;
@@ -191,6 +211,7 @@ void Mapper::track(int32_t id) {
   adjust_window(id);
   note_motion(id);
   revive_.store_patches(state_, front_end_.current(), id, &patches_);
+  places_.keep(look(id));
   adjust_whole(id);
 }
 
@@ -209,13 +230,43 @@ void Mapper::adjust_whole(int32_t id) {
   if (state_.config.adjust_every == 0 || state_.early() || background_.running()) return;
   const int32_t held = std::min(state_.posed, state_.map.end_id() - state_.map.first_id());
   const int32_t gap = std::max(state_.config.adjust_every, held / kWholeGapShare);
-  if (state_.posed < adjusted_posed_ + gap) return;
+  const bool loop = places_.loops().waiting(state_.segment);
+  if (state_.posed < adjusted_posed_ + (loop ? kLoopGap : gap)) return;
   adjusted_posed_ = state_.posed;
-  background_.start(state_, id, kWholeIterations);
+  places_.loops().take(state_, &loops_);
+  background_.start(state_, id, loop ? kLoopIterations : kWholeIterations, &loops_);
+}
+
+bool Mapper::waited_long() const {
+  if (lost_in_row_ < kMaxLostInRow) return false;
+  return time_ns_ - lost_since_ns_ >= kWaitNs || lost_in_row_ >= kManyLostInRow;
+}
+
+bool Mapper::relocalise(int32_t id) {
+  if (!places_.relocalise(look(id), &found_)) return false;
+  for (const int32_t slot : state_.tracks.landmark) state_.map.landmark(slot).followed = false;
+  state_.tracks.clear();
+  for (const PatchMatch& match : found_.matches) {
+    state_.tracks.add(match.point, cv::Point2f(), match.landmark);
+    state_.map.landmark(match.landmark).followed = true;
+  }
+  state_.intrinsics = lost_intrinsics_;
+  const int32_t segment = state_.map.keyframe(found_.keyframe).segment;
+  if (segment != state_.segment || !state_.initialised) state_.enter(segment);
+  state_.initialised = true;
+  FramePose pose = poses_.refine(state_, found_.pose);
+  pose.good = true;  // more has been asked of it than of a pose from tracks
+  take_pose(id, pose);
+  return true;
 }
 
 void Mapper::lose(int32_t id) {
-  if (++lost_in_row_ >= kMaxLostInRow) {
+  if (lost_in_row_++ == 0) {
+    lost_since_ns_ = time_ns_;
+    lost_intrinsics_ = state_.intrinsics;
+  }
+  if (relocalise(id)) return;
+  if (waited_long()) {
     begin_segment(id);
     try_start(id);
     return;
@@ -288,10 +339,12 @@ double Mapper::window_sigma(const int32_t* ids, size_t count) {
 
 bool Mapper::finish() {
   bool changed = background_.running() && background_.merge(&state_);
+  places_.finish();
   if (!state_.initialised || state_.config.adjust_every == 0) return changed;
   const int32_t newest = state_.posed_before(state_.map.end_id());
   for (int round = 0; newest >= 0 && round < kFinalRounds; ++round) {
-    background_.start(state_, newest, kFinalIterations);
+    places_.loops().take(state_, &loops_);
+    background_.start(state_, newest, kFinalIterations, &loops_);
     changed = background_.merge(&state_) || changed;
   }
   return changed;
@@ -299,8 +352,8 @@ bool Mapper::finish() {
 
 int64_t Mapper::bytes() const {
   const auto tracks = static_cast<int64_t>(state_.tracks.point.capacity());
-  return state_.map.bytes() + patches_.bytes() + revive_.bytes() + window_.bytes() +
-         background_.bytes() + front_end_.bytes() +
+  return state_.map.bytes() + patches_.bytes() + places_.bytes() + revive_.bytes() +
+         window_.bytes() + background_.bytes() + front_end_.bytes() +
          tracks * static_cast<int64_t>(3 * sizeof(cv::Point2f) + sizeof(int32_t) + 1);
 }
 

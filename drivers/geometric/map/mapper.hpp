@@ -13,6 +13,7 @@
 #include "drivers/geometric/map/map_adjustment.hpp"
 #include "drivers/geometric/map/revive.hpp"
 #include "drivers/geometric/map/state.hpp"
+#include "drivers/geometric/places/places.hpp"
 #include "drivers/geometric/start/bootstrap.hpp"
 #include "drivers/geometric/zoom/zoom_watch.hpp"
 
@@ -48,6 +49,7 @@ class Mapper {
 
   const State& state() const { return state_; }
   const MapperCounts& counts() const { return counts_; }
+  const Places& places() const { return places_; }
   const StartStatistics& start_statistics() const { return start_; }
   int64_t bytes() const;
 
@@ -58,7 +60,13 @@ class Mapper {
   void detect_tracks();
   void try_start(int32_t id);
   void track(int32_t id);
+  /// The newest keyframe's pose is known: it joins the map.
+  void take_pose(int32_t id, const FramePose& found);
   void lose(int32_t id);
+  /// Finds a lost camera in the map; what it sees of it is followed from then on.
+  bool relocalise(int32_t id);
+  bool waited_long() const;
+  Places::Look look(int32_t id) const;
   /// Poses a keyframe that was lost when it was new, after a later one has been found.
   void recover(int32_t id, const CameraPose& near);
   void begin_segment(int32_t id);
@@ -73,6 +81,9 @@ class Mapper {
   Bootstrap bootstrap_;
   PatchStore patches_;
   Revive revive_;
+  Places places_;
+  PlaceFound found_;
+  std::vector<LoopObservation> loops_;
   ZoomWatch zoom_;
   MapAdjustment window_;
   BackgroundAdjustment background_;
@@ -80,7 +91,10 @@ class Mapper {
   MapperCounts counts_;
   StartStatistics start_;  // until the first start
   std::string remark_;
-  int64_t frame_ = 0;  // index of the frame seen last
+  int64_t frame_ = 0;    // index of the frame seen last
+  int64_t time_ns_ = 0;  // its time
+  int64_t lost_since_ns_ = 0;
+  Intrinsics lost_intrinsics_;  // of the map when the track was lost
   bool zoom_told_ = false;
   int lost_in_row_ = 0;
   int32_t adjusted_posed_ = 0;  // keyframes posed when the whole state was last adjusted

@@ -8,6 +8,7 @@
 #include <opencv2/video/tracking.hpp>
 
 #include "drivers/geometric/image/frame_tracker.hpp"
+#include "drivers/geometric/image/patch_likeness.hpp"
 
 namespace unisim::geometric {
 
@@ -24,7 +25,6 @@ constexpr double kMaxRoll = 0.35;  // rad
 constexpr double kMaxBackwardError = 1.0;
 constexpr double kMaxDistance = 15.0;  // pixels at the reference diagonal
 constexpr double kMinCorrelation = 0.7;
-constexpr int kCorrelationSide = 13;
 constexpr double kOccupied = 0.5;  // of the feature spacing
 constexpr double kCrowded = 0.35;
 constexpr double kNewViewCost = 0.5;  // a patch is kept when no kept one is nearer in view
@@ -42,20 +42,6 @@ double view_difference(const CameraPose& a, const CameraPose& b, const Eigen::Ve
   const double roll = std::abs(std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1)));
   if (!(scale < kMaxLogScale && angle < kMaxViewAngle && roll < kMaxRoll)) return kNoView;
   return scale / kMaxLogScale + angle / kViewAngleUnit + roll / kMaxRoll;
-}
-
-double correlation(const cv::Mat& a, const cv::Point2f& at_a, const cv::Mat& b,
-                   const cv::Point2f& at_b) {
-  const cv::Size side(kCorrelationSide, kCorrelationSide);
-  cv::Mat p;
-  cv::Mat q;
-  cv::getRectSubPix(a, side, at_a, p, CV_32F);
-  cv::getRectSubPix(b, side, at_b, q, CV_32F);
-  cv::Scalar mean_p, mean_q, sigma_p, sigma_q;
-  cv::meanStdDev(p, mean_p, sigma_p);
-  cv::meanStdDev(q, mean_q, sigma_q);
-  const double covariance = p.dot(q) / side.area() - mean_p[0] * mean_q[0];
-  return covariance / std::max(1e-6, sigma_p[0] * sigma_q[0]);
 }
 
 }  // namespace

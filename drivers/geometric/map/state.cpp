@@ -2,6 +2,7 @@
 // Outlier rules of the running state.
 #include "drivers/geometric/map/state.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace unisim::geometric {
@@ -33,6 +34,18 @@ void cull_landmark(State* state, int32_t slot, double gate) {
 }
 
 }  // namespace
+
+void State::enter(int32_t older_segment) {
+  segment = older_segment;
+  segment_start = map.end_id();
+  posed = 0;
+  for (int32_t k = map.first_id(); k < map.end_id(); ++k) {
+    const Keyframe& held = map.keyframe(k);
+    if (held.segment != segment) continue;
+    segment_start = std::min(segment_start, k);
+    posed += held.posed ? 1 : 0;
+  }
+}
 
 double reprojection_error(const State& state, const Observation& seen, const Keyframe& from,
                           const Eigen::Vector3d& position) {

@@ -18,6 +18,14 @@ inline constexpr double kMinParallaxRad = 0.017453292519943295;  // 1 degree
 /// Posed keyframes until which the whole segment is adjusted with each new keyframe.
 inline constexpr int kEarlyKeyframes = 20;
 
+/// A landmark seen again in a keyframe that closes a loop; not an observation of the map yet.
+struct LoopObservation {
+  int32_t landmark = -1;
+  uint32_t generation = 0;
+  int32_t keyframe = -1;
+  cv::Point2f point;
+};
+
 struct State {
   explicit State(const unisim_geometric_config& configuration, const MapCapacity& capacity)
       : config(configuration), map(capacity) {}
@@ -34,6 +42,9 @@ struct State {
   int32_t segment_start = 0;  ///< first keyframe of the segment
   int32_t posed = 0;          ///< keyframes posed in this segment
   double median_depth = 0;    ///< of the newest posed keyframe's landmarks
+
+  /// Goes on in an older segment.
+  void enter(int32_t older_segment);
 
   bool early() const { return posed <= kEarlyKeyframes; }
   /// Newest posed keyframe of the segment before `id`, -1 if none.

@@ -13,6 +13,18 @@ namespace {
 constexpr double kPairSigma = 0.003;
 constexpr size_t kLeastWideViews = 3;
 
+/// Keyframe that stands in for i in the pair (i, j): the last one of j's segment where the track
+/// was lost between and found again at j.
+int32_t before_gap(const State& state, int32_t i, int32_t j) {
+  const Keyframe& found = state.map.keyframe(j);
+  if (!found.posed) return i;
+  for (int32_t k = i; state.map.holds(k); --k) {
+    const Keyframe& before = state.map.keyframe(k);
+    if (before.posed && before.segment == found.segment) return k;
+  }
+  return i;
+}
+
 bool finite(const unisim_sim3& pose) {
   double sum = 0;
   for (const double value : pose.q) sum += value;
@@ -54,8 +66,9 @@ int Predictions::pair(const Mapper& mapper, int32_t i, int32_t j, unisim_pair_pr
     *why = "geometric: the pair's keyframes are no longer or not yet in the state";
     return UNISIM_PREDICTION_REJECTED;
   }
-  const Keyframe& first = state.map.keyframe(i);
   const Keyframe& second = state.map.keyframe(j);
+  const int32_t found_from = before_gap(state, i, j);
+  const Keyframe& first = state.map.keyframe(found_from);
   if (!state.initialised && first.segment == state.segment && second.segment == state.segment) {
     *why = "geometric: no start found yet";
     return UNISIM_PREDICTION_PENDING;
@@ -74,7 +87,8 @@ int Predictions::pair(const Mapper& mapper, int32_t i, int32_t j, unisim_pair_pr
     *why = "geometric: the pair's pose is not finite";
     return UNISIM_PREDICTION_REJECTED;
   }
-  out->depth_i = fill(state, i, 0, &pair_maps_);
+  out->gap = i - found_from;
+  out->depth_i = fill(state, found_from, 0, &pair_maps_);
   out->depth_j = fill(state, j, 1, &pair_maps_);
   out->focal_px = state.intrinsics.camera.focal_px;
   out->center_sigma = std::max(kPairSigma, second.center_sigma);

@@ -158,7 +158,11 @@ int two_view(unisim_predictor* predictor, int32_t i, int32_t j, unisim_pair_pred
     me->refused_pairs->settle(j, status != UNISIM_PREDICTION_OK);
     if (status != UNISIM_PREDICTION_OK) return status;
     const Outputs& outputs = me->pair->outputs();
-    *out = {outputs.T_0_view()[1], outputs.maps()[0], outputs.maps()[1], outputs.focal_px(), 0.0};
+    *out = {};
+    out->T_i_j = outputs.T_0_view()[1];
+    out->depth_i = outputs.maps()[0];
+    out->depth_j = outputs.maps()[1];
+    out->focal_px = outputs.focal_px();
     return status;
   });
 }

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Loops found and not yet in the map: they wait for a second keyframe that agrees, then for the
+// next adjustment of the whole state, to which they give their observations.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "drivers/geometric/map/state.hpp"
+#include "drivers/geometric/places/place_finder.hpp"
+
+namespace unisim::geometric {
+
+class LoopBook {
+ public:
+  static constexpr size_t kMostMatches = 150;  ///< of one loop
+
+  LoopBook();
+
+  /// Keyframe `id` was found at `found.pose`; the state has it elsewhere, by the drift of the loop.
+  void add(const State& state, int32_t id, const PlaceFound& found);
+  /// Drops loops that no keyframe agreed with in time. @return their keyframes
+  const std::vector<int32_t>& drop_unconfirmed(int32_t newest);
+  /// Is there a loop that counts, of this segment?
+  bool waiting(int32_t segment) const;
+  /// Is there one that waits for a second to agree?
+  bool hoping() const;
+  /// Hands over the observations of the loops that count, by landmark and keyframe.
+  void take(const State& state, std::vector<LoopObservation>* out);
+  int64_t bytes() const;
+
+ private:
+  struct Loop {
+    int32_t keyframe = -1;
+    int32_t segment = 0;
+    bool counts = false;
+    bool taken = true;  // free
+    CameraPose found;   // where it was found in the map
+    std::vector<PatchMatch> matches;
+  };
+  static bool agree(const State& state, const Loop& a, const Loop& b);
+
+  std::array<Loop, 16> loops_;
+  size_t next_ = 0;
+  std::vector<int32_t> dropped_;
+};
+
+}  // namespace unisim::geometric

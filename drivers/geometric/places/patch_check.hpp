@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Whether landmarks look as their patches say at a supposed pose: the judge of all candidates.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "drivers/geometric/bundle/pose_solver.hpp"
+#include "drivers/geometric/image/patch_store.hpp"
+#include "drivers/geometric/image/prepared_image.hpp"
+#include "drivers/geometric/map/state.hpp"
+
+namespace unisim::geometric {
+
+/// A landmark found in an image.
+struct PatchMatch {
+  int32_t landmark = -1;
+  uint32_t generation = 0;
+  cv::Point2f point;
+};
+
+struct PatchCheckResult {
+  int in_view = 0;  ///< landmarks looked for
+  CameraPose pose;  ///< refined
+  std::vector<PatchMatch> inliers;
+};
+
+inline constexpr int kFitRounds = 3;
+/// Rounds of least squares, each on the observations within its gate of the pose before.
+/// @param gates kFitRounds + 1, pixels at the reference diagonal
+/// @param[out] inlier flags within the last gate @return their number, 0: too few for a round
+int fit_pose(const State& state, std::vector<PoseObservation>* observations, const double* gates,
+             CameraPose* pose, std::vector<uint8_t>* inlier);
+
+class PatchCheck {
+ public:
+  void open(const cv::Size& size);
+  /// @param landmarks slots to look for  @param start supposed pose of the image
+  void run(const State& state, const PatchStore& patches, const PreparedImage& current,
+           const int32_t* landmarks, size_t count, const CameraPose& start, PatchCheckResult* out);
+
+ private:
+  struct Target {
+    int32_t landmark;
+    int patch;
+    cv::Point2f expected;
+    cv::Matx23d patch_of_tile;  // where in the patch a pixel of the tile is
+  };
+  bool aim(const State& state, const PatchStore& patches, int32_t landmark, const CameraPose& pose,
+           Target* out) const;
+  cv::Mat tile(size_t j);
+  void draw(const PatchStore& patches, size_t first, size_t count, const cv::Mat& image);
+  void match_contrast(const cv::Mat& image);
+  void follow(const State& state, const PatchStore& patches, const PreparedImage& current,
+              double reach, std::vector<PatchMatch>* found);
+
+  std::vector<Target> targets_;
+  PreparedImage atlas_;
+  std::vector<cv::Point2f> from_;
+  std::vector<cv::Point2f> to_;
+  std::vector<cv::Point2f> back_;
+  std::vector<uint8_t> found_;
+  std::vector<uint8_t> found_back_;
+  std::vector<float> error_;
+  std::vector<double> ratios_;
+  std::vector<PoseObservation> observations_;
+  std::vector<uint8_t> inlier_;
+};
+
+}  // namespace unisim::geometric

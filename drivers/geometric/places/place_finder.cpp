@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Where in the map an image was taken.
+#include "drivers/geometric/places/place_finder.hpp"
+
+#include <algorithm>
+
+#include "drivers/geometric/places/pose_search.hpp"
+
+namespace unisim::geometric {
+
+namespace {
+
+constexpr int32_t kSpread = 4;  // keyframes between candidates: neighbours show the same
+constexpr size_t kMinMatches = 8;
+constexpr double kPoseGate = 4.0;  // pixels at the reference diagonal
+constexpr double kPoseGates[kFitRounds + 1] = {kPoseGate, kPoseGate, kPoseGate, kPoseGate};
+constexpr double kLinked = 0.5;  // share of a place's landmarks the keyframe sees anyway
+
+}  // namespace
+
+PlaceFinder::PlaceFinder(const unisim_geometric_config& config)
+    : config_(config), list_(config.max_keyframes), viewer_(config.max_landmarks) {}
+
+void PlaceFinder::open(const cv::Size& size) {
+  orb_.open(size, config_.mask);
+  check_.open(size);
+}
+
+void PlaceFinder::see(const cv::Mat& gray, int32_t id) {
+  orb_.describe(gray, &features_);
+  describable_ = describe_image(features_.descriptor, descriptor_.data());
+  seen_ = id;
+}
+
+void PlaceFinder::add(const State& state) {
+  list_.forget_before(state.map.first_id());
+  if (describable_) list_.add(seen_, descriptor_.data());
+}
+
+bool PlaceFinder::find(const State& state, const DescriptorStore& store, const PatchStore& patches,
+                       const PreparedImage& current, const Question& question, PlaceFound* out,
+                       std::vector<unisim_place_report>* log) {
+  if (!describable_) return false;
+  list_.forget_before(state.map.first_id());
+  for (const unisim_places_match& match :
+       list_.query(seen_, descriptor_.data(), question.gap, kSpread, question.tries)) {
+    const Keyframe& from = state.map.keyframe(match.id);
+    if (!from.posed || (!question.lost && from.segment != state.segment)) continue;
+    unisim_place_report report{};
+    report.keyframe = seen_;
+    report.candidate = match.id;
+    report.lost = question.lost ? 1 : 0;
+    report.score = match.score;
+    viewer_.collect(state, store, match.id, &view_);
+    bool good = false;
+    if (!question.lost && linked(state)) {
+      report.reason = "seen together already";
+    } else {
+      good = verify(state, patches, current, out, &report);
+    }
+    log->push_back(report);
+    if (good) return true;
+  }
+  return false;
+}
+
+/// The keyframe sees the place's landmarks already: nothing new would be learnt.
+bool PlaceFinder::linked(const State& state) const {
+  size_t followed = 0;
+  for (size_t l = 0; l < view_.own; ++l) {
+    followed += state.map.landmark(view_.landmark[l]).followed ? 1 : 0;
+  }
+  return static_cast<double>(followed) >= kLinked * static_cast<double>(view_.own);
+}
+
+bool PlaceFinder::verify(const State& state, const PatchStore& patches,
+                         const PreparedImage& current, PlaceFound* out,
+                         unisim_place_report* report) {
+  CameraPose pose;
+  if (!pose_from_features(state, &pose, report)) return false;
+  check_.run(state, patches, current, view_.landmark.data(), view_.own, pose, &checked_);
+  report->in_view = checked_.in_view;
+  report->patch_inliers = static_cast<int32_t>(checked_.inliers.size());
+  if (report->patch_inliers < config_.min_inliers) {
+    report->reason = "the landmarks look otherwise";
+    return false;
+  }
+  if (report->patch_inliers < config_.min_share * report->in_view) {
+    report->reason = "most landmarks in view look otherwise";
+    return false;
+  }
+  report->accepted = 1;
+  report->reason = "accepted";
+  out->keyframe = view_.keyframe;
+  out->pose = checked_.pose;
+  out->matches = checked_.inliers;
+  return true;
+}
+
+bool PlaceFinder::pose_from_features(const State& state, CameraPose* pose,
+                                     unisim_place_report* report) {
+  match_features(features_, view_, &pairs_);
+  report->matches = static_cast<int32_t>(pairs_.size());
+  report->reason = "too few features match";
+  if (pairs_.size() < kMinMatches) return false;
+  report->reason = "the matches agree on no pose";
+  // The nearest are the most trusted.
+  std::sort(pairs_.begin(), pairs_.end(), [](const FeaturePair& a, const FeaturePair& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.feature < b.feature;
+  });
+  const CameraModel& camera = state.intrinsics.camera;
+  observations_.clear();
+  for (const FeaturePair& pair : pairs_) {
+    const int32_t slot = view_.landmark[static_cast<size_t>(pair.landmark)];
+    const cv::Point2f& at = features_.point[static_cast<size_t>(pair.feature)];
+    observations_.push_back(
+        {state.map.landmark(slot).position, camera.undistort({at.x, at.y}), 1.0});
+  }
+  if (search_pose(camera, observations_, kPoseGate * state.pixel_scale, pose) == 0) return false;
+  report->pose_inliers = fit_pose(state, &observations_, kPoseGates, pose, &inlier_);
+  return report->pose_inliers >= config_.min_pnp;
+}
+
+int64_t PlaceFinder::bytes() const {
+  const size_t features = kOrbFeatures * (sizeof(cv::Point2f) + kOrbBytes);
+  return list_.bytes() + static_cast<int64_t>(features) + config_.max_landmarks;
+}
+
+}  // namespace unisim::geometric

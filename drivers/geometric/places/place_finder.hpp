@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Where in the map an image was taken: candidates by their looks, each verified.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "drivers/geometric/places/patch_check.hpp"
+#include "drivers/geometric/places/place_list.hpp"
+#include "drivers/geometric/places/place_view.hpp"
+#include "drivers/predictor.h"
+
+namespace unisim::geometric {
+
+/// A pose in the map and the landmarks that say so.
+struct PlaceFound {
+  int32_t keyframe = -1;  ///< the candidate
+  CameraPose pose;
+  std::vector<PatchMatch> matches;
+};
+
+class PlaceFinder {
+ public:
+  explicit PlaceFinder(const unisim_geometric_config& config);
+  void open(const cv::Size& size);
+
+  /// Describes the image of keyframe `id`, which may be asked for and added then.
+  void see(const cv::Mat& gray, int32_t id);
+  bool seen(int32_t id) const { return seen_ == id; }
+  /// The keyframe seen last has a pose now.
+  void add(const State& state);
+
+  struct Question {
+    int32_t gap;    ///< keyframes between the image and a candidate, at least
+    int32_t tries;  ///< candidates
+    bool lost;      ///< there is no pose to go by; any segment will do
+  };
+  /// Looks for the keyframe seen last in the map. Appends what was tried to `log`.
+  bool find(const State& state, const DescriptorStore& store, const PatchStore& patches,
+            const PreparedImage& current, const Question& question, PlaceFound* out,
+            std::vector<unisim_place_report>* log);
+
+  Orb& orb() { return orb_; }
+  int64_t bytes() const;
+
+ private:
+  bool verify(const State& state, const PatchStore& patches, const PreparedImage& current,
+              PlaceFound* out, unisim_place_report* report);
+  bool pose_from_features(const State& state, CameraPose* pose, unisim_place_report* report);
+  bool linked(const State& state) const;
+
+  const unisim_geometric_config& config_;
+  Orb orb_;
+  PlaceList list_;
+  PlaceViewer viewer_;
+  PatchCheck check_;
+  OrbFeatureSet features_;
+  std::array<int8_t, kVladSize> descriptor_{};
+  bool describable_ = false;
+  int32_t seen_ = -1;
+  PlaceView view_;
+  std::vector<FeaturePair> pairs_;
+  std::vector<PoseObservation> observations_;
+  std::vector<uint8_t> inlier_;
+  PatchCheckResult checked_;
+};
+
+}  // namespace unisim::geometric
