@@ -66,6 +66,10 @@ Step MapBuilder::serve_pair(const unisim_request& request, bool* pending) {
     return reject(request, MessageKind::kPairRejected, predictor_message());
   }
   const int32_t j = request.keyframe_ids[1];
+  if (prediction.gap < 0 || prediction.gap > request.keyframe_ids[0]) {
+    return reject(request, MessageKind::kInvalid,
+                  "prediction has a gap that begins at no keyframe");
+  }
   const unisim_status status =
       parts_.session->add_two_view(request.keyframe_ids[0] - prediction.gap, j, prediction);
   if (status == UNISIM_ERR_INVALID_ARGUMENT) {
