@@ -90,8 +90,9 @@ void size_window(const SessionConfig& config, SessionCapacity* capacity) {
   // A skeleton node is known by one of its windows, which has to stay.
   capacity->submaps = {readable + capacity->skeleton + capacity->live_windows + 1, config.max_loops,
                        live, w, capacity->live_windows * w};
-  capacity->window_pairs = capacity->live_windows * std::min(2 * windows_over_keyframe(config),
-                                                             std::max<int32_t>(config.window_overlap, 1));
+  capacity->window_pairs =
+      capacity->live_windows *
+      std::min(2 * windows_over_keyframe(config), std::max<int32_t>(config.window_overlap, 1));
 
   const int32_t nodes = capacity->live_nodes + w;
   const int32_t views = live * w;

@@ -39,7 +39,7 @@ class FrontEnd {
 
   const cv::Mat& gray() const {
     return preparation_.gray();
-  }                                          ///< of the frame seen last, as it came
+  }  ///< of the frame seen last, as it came
   size_t sealed() const { return sealed_; }  ///< tracks at the last keyframe
   const PreparedImage& current() const { return images_[static_cast<size_t>(last_)]; }
   const cv::Point2f& flow() const { return flow_; }  ///< median over the last frame

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The public header alone, first in the file, twice. */
-#include <unisim/unisim.h>
 #include <unisim/places.h>
+#include <unisim/unisim.h>
 
 int unisim_header_probe(void);
 int unisim_header_probe(void) {

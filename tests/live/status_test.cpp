@@ -5,9 +5,9 @@
 
 #include "tests/support/catch.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tools/live/figures.hpp"
 #include "tools/live/options.hpp"
 #include "tools/live/pose_age.hpp"
-#include "tools/live/figures.hpp"
 
 using namespace unisim::live;
 using unisim::pipeline::LivePose;
