@@ -37,9 +37,8 @@ class FrontEnd {
   const std::vector<cv::Point2f>& detect(const Tracks& tracks);
   void end_keyframe(Tracks* tracks);
 
-  const cv::Mat& gray() const {
-    return preparation_.gray();
-  }  ///< of the frame seen last, as it came
+  /// Of the frame seen last, as it came.
+  const cv::Mat& gray() const { return preparation_.gray(); }
   size_t sealed() const { return sealed_; }  ///< tracks at the last keyframe
   const PreparedImage& current() const { return images_[static_cast<size_t>(last_)]; }
   const cv::Point2f& flow() const { return flow_; }  ///< median over the last frame

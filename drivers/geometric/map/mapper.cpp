@@ -93,6 +93,7 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
 }
 
 void Mapper::see(const unisim_frame& frame) {
+  keep_place();
   frame_ = frame.index;
   time_ns_ = frame.timestamp_ns;
   front_end_.see(frame.image, &state_.tracks);
@@ -169,7 +170,13 @@ void Mapper::try_start(int32_t id) {
   if (++counts_.started == 1 && start_.two_eyes()) remark_ = kTwoEyes;
   note_motion(id);
   revive_.store_patches(state_, front_end_.current(), id, &patches_);
-  places_.keep(look(id));
+  unkept_ = id;
+}
+
+void Mapper::keep_place() {
+  if (unkept_ < 0) return;
+  places_.keep(look(unkept_));
+  unkept_ = -1;
 }
 
 Places::Look Mapper::look(int32_t id) const {
@@ -211,7 +218,7 @@ void Mapper::take_pose(int32_t id, const FramePose& first) {
   adjust_window(id);
   note_motion(id);
   revive_.store_patches(state_, front_end_.current(), id, &patches_);
-  places_.keep(look(id));
+  unkept_ = id;
   adjust_whole(id);
 }
 
@@ -338,6 +345,7 @@ double Mapper::window_sigma(const int32_t* ids, size_t count) {
 }
 
 bool Mapper::finish() {
+  keep_place();
   bool changed = background_.running() && background_.merge(&state_);
   places_.finish();
   if (!state_.initialised || state_.config.adjust_every == 0) return changed;

@@ -66,6 +66,9 @@ class Mapper {
   /// Finds a lost camera in the map; what it sees of it is followed from then on.
   bool relocalise(int32_t id);
   bool waited_long() const;
+  /// What the newest keyframe has to do with places, put off until the next frame: it takes longer
+  /// than the pose, and nobody waits for it. That keyframe's image is still there then.
+  void keep_place();
   Places::Look look(int32_t id) const;
   /// Poses a keyframe that was lost when it was new, after a later one has been found.
   void recover(int32_t id, const CameraPose& near);
@@ -97,6 +100,7 @@ class Mapper {
   Intrinsics lost_intrinsics_;  // of the map when the track was lost
   bool zoom_told_ = false;
   int lost_in_row_ = 0;
+  int32_t unkept_ = -1;         // keyframe whose place has not been kept yet
   int32_t adjusted_posed_ = 0;  // keyframes posed when the whole state was last adjusted
 };
 
