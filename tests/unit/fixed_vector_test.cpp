@@ -2,14 +2,16 @@
 // FixedVector: capacity without growth.
 #include "core/base/fixed_vector.hpp"
 
+#include <vector>
+
 #include "tests/support/catch.hpp"
 
 using unisim::Arena;
 using unisim::FixedVector;
 
 TEST_CASE("push_back fills up to the capacity and then refuses") {
-  unsigned char memory[256];
-  Arena arena(memory, sizeof memory);
+  std::vector<unsigned char> memory(256);
+  Arena arena(memory.data(), memory.size());
   FixedVector<int32_t> v(arena, 2);
   CHECK(v.push_back(7));
   CHECK(v.push_back(8));
@@ -21,8 +23,8 @@ TEST_CASE("push_back fills up to the capacity and then refuses") {
 }
 
 TEST_CASE("pop_back and clear make room again") {
-  unsigned char memory[256];
-  Arena arena(memory, sizeof memory);
+  std::vector<unsigned char> memory(256);
+  Arena arena(memory.data(), memory.size());
   FixedVector<int32_t> v(arena, 1);
   CHECK(v.push_back(1));
   v.pop_back();
