@@ -12,32 +12,24 @@ extern "C" void __asan_unpoison_memory_region(void const volatile* memory, size_
 namespace unisim {
 namespace {
 
-void close_gap(const void* memory, size_t bytes) {
 #ifdef UNISIM_ADDRESS_SANITIZER
-  __asan_poison_memory_region(memory, bytes);
+void poison(const void* memory, size_t bytes) { __asan_poison_memory_region(memory, bytes); }
+void unpoison(const void* memory, size_t bytes) { __asan_unpoison_memory_region(memory, bytes); }
 #else
-  static_cast<void>(memory);
-  static_cast<void>(bytes);
+void poison(const void*, size_t) {}
+void unpoison(const void*, size_t) {}
 #endif
-}
 
 }  // namespace
 
-void Arena::give_back(const void* memory, size_t bytes) {
-#ifdef UNISIM_ADDRESS_SANITIZER
-  __asan_unpoison_memory_region(memory, bytes);
-#else
-  static_cast<void>(memory);
-  static_cast<void>(bytes);
-#endif
-}
+void Arena::give_back(const void* memory, size_t bytes) { unpoison(memory, bytes); }
 
 Arena::Arena(void* memory, size_t bytes) : memory_(static_cast<unsigned char*>(memory)) {
   if (memory_ == nullptr) {
     ok_ = false;
     return;
   }
-  give_back(memory, bytes);
+  unpoison(memory, bytes);
   const size_t misaligned = reinterpret_cast<uintptr_t>(memory) % kAlignment;
   const size_t skip = misaligned == 0 ? 0 : kAlignment - misaligned;
   memory_ += skip < bytes ? skip : bytes;
@@ -73,7 +65,7 @@ void* Arena::take_bytes(size_t count, size_t size) {
   if (memory_ == nullptr) return nullptr;
   if (used_ > capacity_) ok_ = false;
   if (!ok_) return nullptr;
-  close_gap(memory_ + start + bytes, used_ - start - bytes);
+  poison(memory_ + start + bytes, used_ - start - bytes);
   return memory_ + start;
 }
 

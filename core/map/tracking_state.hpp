@@ -32,8 +32,7 @@ class TrackingState {
     if (lost && state_ != Tracking::kLost) ++lost_events_;
     state_ = lost ? Tracking::kLost : Tracking::kDegraded;
   }
-  void found_again() { state_ = Tracking::kRelocalised; }
-  void segments_joined_by_loop() { state_ = Tracking::kRelocalised; }
+  void relocalised() { state_ = Tracking::kRelocalised; }
 
   Tracking state() const { return state_; }
   int32_t lost_events() const { return lost_events_; }

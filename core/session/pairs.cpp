@@ -83,7 +83,7 @@ Status Session::add_two_view(const TwoViewInput& input) {
   }
   accept_pair(input, log_ratio, multiplier);
   if (over_gap) {
-    tracking_.found_again();
+    tracking_.relocalised();
     map_.keyframes[input.j].state = tracking_.state();
   }
   make_node_room();

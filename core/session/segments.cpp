@@ -25,7 +25,7 @@ void Session::place_submap(Submap* submap) {
     if (view.measured && map_.keyframes[view.keyframe].segment != origin.segment) {
       watch_.note_news();
       join_segment(*submap, map_.keyframes[view.keyframe].segment, origin.segment);
-      if (submap->is_loop) tracking_.segments_joined_by_loop();
+      if (submap->is_loop) tracking_.relocalised();
     }
   }
 }
