@@ -23,6 +23,8 @@ class PoseHistory {
   /// Pose of today; all else of a keyframe that has left is as it left. false: it has none
   bool read(const unisim_session* session, int32_t keyframe, unisim_pose* pose) const;
 
+  const PoseBook& book() const { return book_; }
+
  private:
   PoseBook book_;
   RecordFile<unisim_pose> retired_;  // as they left the window

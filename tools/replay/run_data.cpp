@@ -37,7 +37,7 @@ void add_between(const RunRecord& record, RunData* data) {
 void add_submaps(const unisim_session* session, const RunRecord& record, RunData* data) {
   for (int32_t id = 0; id < record.submaps(); ++id) {
     unisim_sim3 T_world_submap{};
-    const bool known = record.book().find_submap(session, id, &T_world_submap);
+    const bool known = record.poses().book().find_submap(session, id, &T_world_submap);
     data->submap_scale.push_back(known ? T_world_submap.s : 0.0);
   }
 }
@@ -50,7 +50,7 @@ RunData collect(unisim_session* session, const RunRecord& record, bool every_fra
   if (unisim_get_info(session, &data.session) != UNISIM_OK) return data;
   for (int32_t id = 0; id < data.session.keyframes; ++id) {
     unisim_pose pose;
-    if (!record.find(session, id, &pose)) continue;
+    if (!record.poses().read(session, id, &pose)) continue;
     data.keyframes.push_back({pose, record.frame_of(id), covariance_trace(session, id)});
     if (pose.confidence > 0) data.trajectory.push_back({pose.timestamp_ns, pose.T_world_kf});
   }

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "drivers/pipeline/listener.hpp"
-#include "drivers/pipeline/pose_book.hpp"
+#include "drivers/pipeline/pose_history.hpp"
 #include "drivers/pipeline/temporary_file.hpp"
 #include "drivers/source.h"
 
@@ -17,17 +17,20 @@ class RunRecord : public pipeline::Listener {
  public:
   /// @param folder for temporary files
   explicit RunRecord(const std::string& folder)
-      : book_(folder), keyframes_(folder), live_(folder), between_(folder) {}
+      : poses_(folder), keyframes_(folder), live_(folder), between_(folder) {}
 
   void on_keyframe(int32_t id, const unisim_frame& frame) override;
   void on_window(int32_t submap_id, const unisim_window_prediction& window) override;
   void on_live_pose(const pipeline::LivePose& pose) override;
   void on_between_pose(const pipeline::BetweenPose& pose) override { between_.append(pose); }
-  void on_retired(const unisim_retired& retired, const unisim_pose* pose) override;
+  void on_retired(const unisim_retired& retired, const unisim_pose* pose) override {
+    poses_.take(retired, pose);
+  }
 
   const pipeline::RecordFile<unisim_stamped_pose>& live() const { return live_; }
   const pipeline::RecordFile<pipeline::BetweenPose>& between() const { return between_; }
-  const pipeline::PoseBook& book() const { return book_; }
+  /// Poses of keyframes, kept by the session or not.
+  const pipeline::PoseHistory& poses() const { return poses_; }
 
   /// Largest id of a submap that a window became, and one.
   int32_t submaps() const { return submaps_; }
@@ -35,16 +38,12 @@ class RunRecord : public pipeline::Listener {
   /// Index of the frame that became the keyframe, -1 if unknown.
   int64_t frame_of(int32_t keyframe) const { return keyframes_.get(keyframe).frame_index; }
 
-  /// Pose of a keyframe, kept by the session or not. false: it has none.
-  bool find(const unisim_session* session, int32_t keyframe, unisim_pose* pose) const;
-
  private:
   struct Keyframe {
     int64_t frame_index = -1;
-    unisim_pose pose{};  ///< as it left the window, struct_size 0 until then
   };
 
-  pipeline::PoseBook book_;
+  pipeline::PoseHistory poses_;
   pipeline::RecordFile<Keyframe> keyframes_;
   pipeline::RecordFile<unisim_stamped_pose> live_;
   pipeline::RecordFile<pipeline::BetweenPose> between_;
