@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "drivers/common/median.hpp"
+
 namespace unisim::geometric {
 
 namespace {
@@ -71,9 +73,7 @@ TrackMotion FrontEnd::motion(const Tracks& tracks) {
   if (sealed_ == 0) return out;
   out.kept = static_cast<double>(scratch_.size()) / static_cast<double>(sealed_);
   if (scratch_.empty()) return out;
-  const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
-  std::nth_element(scratch_.begin(), middle, scratch_.end());
-  out.displacement_px = *middle;
+  out.displacement_px = drivers::median(&scratch_);
   return out;
 }
 

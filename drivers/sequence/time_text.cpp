@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "drivers/common/median.hpp"
+
 namespace unisim::sequence {
 namespace {
 
@@ -68,9 +70,7 @@ bool to_whole(std::string digits, int exponent, uint64_t* value) {
 double middle_step(const std::vector<double>& sorted) {
   std::vector<double> steps;
   for (size_t k = 1; k < sorted.size(); ++k) steps.push_back(sorted[k] - sorted[k - 1]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return drivers::median(&steps);
 }
 
 }  // namespace

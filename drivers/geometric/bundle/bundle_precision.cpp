@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/common/median.hpp"
 #include "drivers/geometric/bundle/bundle_adjuster.hpp"
 #include "drivers/geometric/bundle/bundle_workspace.hpp"
 #include "drivers/geometric/bundle/reduced_system.hpp"
@@ -19,13 +20,6 @@ constexpr double kGaugeLambda = 1e-10;
 constexpr double kRayleighMedian = 1.1774;
 // Precision below which pixel positions are never trusted, scaled pixels.
 constexpr double kResidualFloor = 0.01;
-
-double median(std::vector<double>* values) {
-  if (values->empty()) return 0.0;
-  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -150,8 +144,9 @@ void BundleAdjuster::measure_residuals(const BundleProblem& problem, const Bundl
       }
     }
   }
-  out->residual_sigma = std::hypot(median(&norms) / kRayleighMedian, kResidualFloor);
-  out->median_depth = median(&depths);
+  const double norm = norms.empty() ? 0.0 : drivers::median(&norms);
+  out->residual_sigma = std::hypot(norm / kRayleighMedian, kResidualFloor);
+  out->median_depth = depths.empty() ? 0.0 : drivers::median(&depths);
 }
 
 }  // namespace unisim::geometric

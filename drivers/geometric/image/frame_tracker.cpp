@@ -2,20 +2,11 @@
 // Follows features from frame to frame with pyramidal Lucas-Kanade.
 #include "drivers/geometric/image/frame_tracker.hpp"
 
-#include <algorithm>
 #include <opencv2/video/tracking.hpp>
 
+#include "drivers/common/median.hpp"
+
 namespace unisim::geometric {
-
-namespace {
-
-float median_of(std::vector<float>* values) {
-  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return *middle;
-}
-
-}  // namespace
 
 void FrameTracker::reserve(size_t count) {
   next_.reserve(count);
@@ -53,8 +44,8 @@ cv::Point2f FrameTracker::run(const PreparedImage& previous, const PreparedImage
   tracks->remove(bad_);
   if (dx_.empty()) return {0.0F, 0.0F};
   error_.resize(followed);
-  patch_error_ = static_cast<double>(median_of(&error_));
-  return {median_of(&dx_), median_of(&dy_)};
+  patch_error_ = static_cast<double>(drivers::median(&error_));
+  return {drivers::median(&dx_), drivers::median(&dy_)};
 }
 
 }  // namespace unisim::geometric

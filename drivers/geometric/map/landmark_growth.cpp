@@ -2,8 +2,9 @@
 // Gives positions to the tracks of the newest keyframe.
 #include "drivers/geometric/map/landmark_growth.hpp"
 
-#include <algorithm>
 #include <cmath>
+
+#include "drivers/common/median.hpp"
 
 namespace unisim::geometric {
 
@@ -70,9 +71,7 @@ void LandmarkGrowth::collect_neighbours(State* state, int32_t keyframe) {
     depths_.push_back(depth);
   }
   if (depths_.size() < kMinNeighbours) return;
-  const auto middle = depths_.begin() + static_cast<std::ptrdiff_t>(depths_.size() / 2);
-  std::nth_element(depths_.begin(), middle, depths_.end());
-  state->median_depth = *middle;
+  state->median_depth = drivers::median(&depths_);
 }
 
 void LandmarkGrowth::promote(State* state, int32_t slot) {

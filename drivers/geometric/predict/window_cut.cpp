@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/common/median.hpp"
+
 namespace unisim::geometric {
 
 namespace {
@@ -104,9 +106,7 @@ double WindowCut::log_depth_ratio(const State& state, int64_t view) {
     }
   }
   if (scratch_.empty()) return 0;
-  const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
-  std::nth_element(scratch_.begin(), middle, scratch_.end());
-  return *middle;
+  return drivers::median(&scratch_);
 }
 
 bool WindowCut::changed(const State& state, const Window& window,

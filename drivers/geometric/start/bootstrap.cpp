@@ -7,6 +7,7 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "drivers/common/median.hpp"
 #include "drivers/geometric/start/rotation_test.hpp"
 
 namespace unisim::geometric {
@@ -25,12 +26,6 @@ constexpr int kMinPlaced = 40;
 constexpr double kMinPlacedShare = 0.5;
 constexpr double kMinPosedShare = 0.6;
 constexpr double kTolerance = 1e-3;
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -70,7 +65,7 @@ StartOutcome Bootstrap::attempt(State* state, int32_t id, MapAdjustment* adjustm
   }
   std::vector<double> displacement(from_.size());
   for (size_t i = 0; i < from_.size(); ++i) displacement[i] = cv::norm(to_[i] - from_[i]);
-  if (median_of(displacement) < kMinDisplacement * state->pixel_scale) {
+  if (drivers::median(&displacement) < kMinDisplacement * state->pixel_scale) {
     return StartOutcome::kNotMoving;
   }
   const Intrinsics& intrinsics = state->intrinsics;
@@ -139,7 +134,7 @@ int Bootstrap::place_landmarks(State* state, int32_t id, double* median_parallax
     mark.state = LandmarkState::kPlaced;
     parallax.push_back(result.parallax_rad);
   }
-  *median_parallax = parallax.empty() ? 0 : median_of(parallax);
+  *median_parallax = parallax.empty() ? 0 : drivers::median(&parallax);
   return static_cast<int>(parallax.size());
 }
 
@@ -149,7 +144,7 @@ void Bootstrap::set_unit(State* state, int32_t id) {
     const Landmark& mark = state->map.landmark(slot);
     if (mark.state == LandmarkState::kPlaced) depth.push_back(mark.position.z());
   }
-  const double unit = median_of(depth);
+  const double unit = drivers::median(&depth);
   if (!(unit > 0)) return;
   for (const int32_t slot : landmarks_) state->map.landmark(slot).position /= unit;
   state->map.keyframe(id).pose.t /= unit;

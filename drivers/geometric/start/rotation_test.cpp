@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "drivers/common/median.hpp"
+
 namespace unisim::geometric {
 
 namespace {
@@ -23,17 +25,12 @@ Eigen::Vector3d ray(const cv::Point2f& p, const cv::Size& size, double focal) {
       .normalized();
 }
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Robust best rotation (Kabsch with weights from the last residuals) and its median residual.
 double residual_at(const std::vector<cv::Point2f>& from, const std::vector<cv::Point2f>& to,
                    const cv::Size& size, double focal) {
   std::vector<double> residual(from.size(), 0.0);
   double scale = std::numeric_limits<double>::infinity();
+  double middle = 0;
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
     for (size_t i = 0; i < from.size(); ++i) {
@@ -48,9 +45,11 @@ double residual_at(const std::vector<cv::Point2f>& from, const std::vector<cv::P
       const double cosine = (rotation * ray(from[i], size, focal)).dot(ray(to[i], size, focal));
       residual[i] = focal * std::acos(std::clamp(cosine, -1.0, 1.0));
     }
-    scale = std::max(0.3, median_of(residual));
+    std::vector<double> any_order = residual;
+    middle = drivers::median(&any_order);
+    scale = std::max(0.3, middle);
   }
-  return median_of(residual);
+  return middle;
 }
 
 }  // namespace

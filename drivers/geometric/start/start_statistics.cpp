@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "drivers/common/median.hpp"
+
 namespace unisim::geometric {
 
 namespace {
@@ -41,10 +43,8 @@ void StartStatistics::see_keyframe(const Tracks& tracks, size_t sealed, double p
     resting += moved[i] < kRestingPx ? 1 : 0;
     moving += moved[i] > std::max(2 * kRestingPx, kMovingPx * pixel_scale) ? 1 : 0;
   }
-  const auto middle = moved.begin() + static_cast<std::ptrdiff_t>(moved.size() / 2);
-  std::nth_element(moved.begin(), middle, moved.end());
   ++moved_keyframes;
-  moved_px += *middle;
+  moved_px += drivers::median(&moved);
 }
 
 void StartStatistics::note_outcome(StartOutcome outcome, size_t count) {
