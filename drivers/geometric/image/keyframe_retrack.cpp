@@ -3,7 +3,6 @@
 #include "drivers/geometric/image/keyframe_retrack.hpp"
 
 #include <opencv2/imgproc.hpp>
-#include <opencv2/video/tracking.hpp>
 
 #include "drivers/geometric/image/frame_tracker.hpp"
 
@@ -15,39 +14,29 @@ constexpr double kMaxCorrection = 2.0;     // pixels from where the frame-to-fra
 }  // namespace
 
 void KeyframeRetrack::reserve(size_t count) {
-  for (auto* points : {&from_, &to_, &back_}) points->reserve(count);
-  for (auto* flags : {&found_, &found_back_, &bad_}) flags->reserve(count);
+  flow_.reserve(count);
+  bad_.reserve(count);
   index_.reserve(count);
-  error_.reserve(count);
 }
 
 void KeyframeRetrack::run(const PreparedImage& last_keyframe, const PreparedImage& current,
                           Tracks* tracks) {
-  from_.clear();
-  to_.clear();
+  flow_.clear();
   index_.clear();
   for (size_t i = 0; i < tracks->size(); ++i) {
     if (!tracks->sealed[i]) continue;
-    from_.push_back(tracks->keyframe_point[i]);
-    to_.push_back(tracks->point[i]);
+    flow_.add(tracks->keyframe_point[i], tracks->point[i]);
     index_.push_back(i);
   }
-  if (from_.empty()) return;
-  back_ = from_;
-  const cv::Size window(kTrackWindow, kTrackWindow);
-  cv::calcOpticalFlowPyrLK(last_keyframe.pyramid, current.pyramid, from_, to_, found_, error_,
-                           window, 0, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW, kMinTexture);
-  cv::calcOpticalFlowPyrLK(current.pyramid, last_keyframe.pyramid, to_, back_, found_back_, error_,
-                           window, 0, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW, kMinTexture);
+  flow_.run(last_keyframe.pyramid, current.pyramid, 0, kMinTexture);
   bad_.assign(tracks->size(), 0);
   for (size_t j = 0; j < index_.size(); ++j) {
     const size_t i = index_[j];
-    const bool good = found_[j] && found_back_[j] &&
-                      cv::norm(back_[j] - from_[j]) < kMaxBackwardError &&
-                      cv::norm(to_[j] - tracks->point[i]) < kMaxCorrection &&
-                      inside_image(to_[j], current.gray.size(), kTrackMargin);
+    const bool good = flow_.came_back(j, kMaxBackwardError) &&
+                      cv::norm(flow_.to(j) - tracks->point[i]) < kMaxCorrection &&
+                      inside_image(flow_.to(j), current.gray.size(), kTrackMargin);
     if (good) {
-      tracks->point[i] = to_[j];
+      tracks->point[i] = flow_.to(j);
     } else {
       bad_[i] = 1;
     }

@@ -8,6 +8,7 @@
 
 #include "drivers/geometric/image/prepared_image.hpp"
 #include "drivers/geometric/image/tracks.hpp"
+#include "drivers/geometric/image/two_way_flow.hpp"
 
 namespace unisim::geometric {
 
@@ -19,14 +20,9 @@ class KeyframeRetrack {
   void run(const PreparedImage& last_keyframe, const PreparedImage& current, Tracks* tracks);
 
  private:
-  std::vector<cv::Point2f> from_;
-  std::vector<cv::Point2f> to_;
-  std::vector<cv::Point2f> back_;
-  std::vector<size_t> index_;
-  std::vector<uint8_t> found_;
-  std::vector<uint8_t> found_back_;
+  TwoWayFlow flow_;
+  std::vector<size_t> index_;  // of the flow's points among the tracks
   std::vector<uint8_t> bad_;
-  std::vector<float> error_;
 };
 
 /// Removes the younger of two tracks closer than `distance`, and those where `mask` is set; the

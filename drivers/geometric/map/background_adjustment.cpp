@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "drivers/common/median.hpp"
+
 namespace unisim::geometric {
 
 namespace {
@@ -32,7 +34,7 @@ void BackgroundAdjustment::start(const State& state, int32_t keyframe, int itera
     if (from.posed && from.segment == state.segment) keyframes_.push_back(k);
   }
   choose_spread();
-  adjustment_.build(state, keyframes_.data(), keyframes_.size(), &loops_);
+  adjustment_.build(state, keyframes_.data(), keyframes_.size(), loops_);
   segment_ = state.segment;
   started_at_ = keyframe;
   iterations_ = iterations;
@@ -77,9 +79,7 @@ BackgroundAdjustment::Move BackgroundAdjustment::move_of_newest(const State& sta
   }
   Move move;
   if (ratios_.size() >= kMinRatios) {
-    const auto middle = ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 2);
-    std::nth_element(ratios_.begin(), middle, ratios_.end());
-    move.scale = *middle;
+    move.scale = drivers::median(&ratios_);
   }
   move.R = better.R.transpose() * now.R;
   move.t = better.center() - move.scale * (move.R * now.center());

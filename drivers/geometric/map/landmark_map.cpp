@@ -82,30 +82,31 @@ void LandmarkMap::free_oldest_landmarks() {
   for (size_t i = 0; i < count; ++i) free_landmark(scratch_[i]);
 }
 
-bool LandmarkMap::observe(int32_t slot, const cv::Point2f& at) {
-  const int32_t id = end_id_ - 1;
-  Keyframe& newest = keyframe(id);
-  if (static_cast<size_t>(newest.observations) == per_keyframe_) return false;
-  const ObservationRef ref{id, newest.observations++};
+ObservationRef LandmarkMap::write(int32_t id, int32_t slot, const cv::Point2f& at) {
+  const ObservationRef ref{id, keyframe(id).observations++};
   Observation& seen = observation(ref);
   seen = Observation{};
   seen.landmark = slot;
   seen.x = at.x;
   seen.y = at.y;
+  ++landmark(slot).observations;
+  return ref;
+}
+
+bool LandmarkMap::observe(int32_t slot, const cv::Point2f& at) {
+  const int32_t id = end_id_ - 1;
+  if (full(id)) return false;
   Landmark& mark = landmark(slot);
-  if (mark.observations++ == 0) {
-    mark.first = ref;
-  } else {
-    observation(mark.last).next = ref;
-  }
+  const bool first = mark.observations == 0;
+  const ObservationRef ref = write(id, slot, at);
+  (first ? mark.first : observation(mark.last).next) = ref;
   mark.last = ref;
   return true;
 }
 
 bool LandmarkMap::observe_in(int32_t id, int32_t slot, const cv::Point2f& at) {
-  Keyframe& target = keyframe(id);
+  if (full(id)) return false;
   Landmark& mark = landmark(slot);
-  if (static_cast<size_t>(target.observations) == per_keyframe_) return false;
   ObservationRef before;
   ObservationRef after = mark.first;
   while (after.valid() && after.keyframe < id) {
@@ -113,16 +114,10 @@ bool LandmarkMap::observe_in(int32_t id, int32_t slot, const cv::Point2f& at) {
     after = observation(after).next;
   }
   if (after.valid() && after.keyframe == id) return false;
-  const ObservationRef ref{id, target.observations++};
-  Observation& seen = observation(ref);
-  seen = Observation{};
-  seen.landmark = slot;
-  seen.x = at.x;
-  seen.y = at.y;
-  seen.next = after;
+  const ObservationRef ref = write(id, slot, at);
+  observation(ref).next = after;
   (before.valid() ? observation(before).next : mark.first) = ref;
   if (!after.valid()) mark.last = ref;
-  ++mark.observations;
   return true;
 }
 

@@ -131,6 +131,11 @@ class LandmarkMap {
 
  private:
   size_t slot_of(int32_t id) const { return static_cast<size_t>(id) % keyframes_.size(); }
+  bool full(int32_t id) const {
+    return static_cast<size_t>(keyframe(id).observations) == per_keyframe_;
+  }
+  /// Puts an observation into keyframe `id`; it is not in the landmark's list yet.
+  ObservationRef write(int32_t id, int32_t slot, const cv::Point2f& at);
   void drop_oldest_keyframe();
   void free_oldest_landmarks();
 

@@ -26,8 +26,7 @@ MapAdjustment::MapAdjustment(const BundleCapacity& capacity, const MapCapacity& 
 }
 
 void MapAdjustment::build(const State& state, const int32_t* ids, size_t count,
-                          const std::vector<LoopObservation>* loops) {
-  static const std::vector<LoopObservation> kNone;
+                          const std::vector<LoopObservation>& loops) {
   problem_.clear();
   keyframes_.clear();
   landmarks_.clear();
@@ -36,7 +35,7 @@ void MapAdjustment::build(const State& state, const int32_t* ids, size_t count,
   state.intrinsics.give(state.early(), &problem_.intrinsics);
   collect_landmarks(state, ids, count);
   add_cameras(state, ids, count);
-  for (const int32_t slot : wanted_) add_landmark(state, slot, loops != nullptr ? *loops : kNone);
+  for (const int32_t slot : wanted_) add_landmark(state, slot, loops);
 }
 
 void MapAdjustment::collect_landmarks(const State& state, const int32_t* ids, size_t count) {

@@ -18,9 +18,9 @@ class MapAdjustment {
   /// Sets up the keyframes `ids` (ascending, posed) as free cameras with every placed landmark seen
   /// in them. Landmarks that reach back bring the keyframe that saw them first as a fixed camera:
   /// these hold the scale.
-  /// @param loops more observations, by landmark and keyframe; NULL: none
+  /// @param loops more observations, by landmark and keyframe
   void build(const State& state, const int32_t* ids, size_t count,
-             const std::vector<LoopObservation>* loops = nullptr);
+             const std::vector<LoopObservation>& loops = {});
 
   BundleResult solve(int iterations, double tolerance);
   /// Precision over the given keyframes at the present state of the problem.

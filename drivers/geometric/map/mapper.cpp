@@ -88,7 +88,7 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
   growth_.reserve(tracks, static_cast<size_t>(config.max_keyframes));
   bootstrap_.reserve(tracks);
   zoom_.reserve(tracks);
-  revive_.reserve(static_cast<size_t>(config.max_landmarks), tracks, size);
+  revive_.reserve(static_cast<size_t>(config.max_landmarks), size);
   window_ids_.reserve(static_cast<size_t>(config.max_keyframes));
 }
 
@@ -116,6 +116,10 @@ void Mapper::note_followed() {
   }
   for (const int32_t slot : state_.tracks.landmark) state_.map.landmark(slot).followed = true;
   state_.map.free_abandoned();
+}
+
+void Mapper::let_go() {
+  for (const int32_t slot : state_.tracks.landmark) state_.map.landmark(slot).followed = false;
 }
 
 void Mapper::observe_tracks(size_t first) {
@@ -251,7 +255,7 @@ bool Mapper::waited_long() const {
 
 bool Mapper::relocalise(int32_t id) {
   if (!places_.relocalise(look(id), &found_)) return false;
-  for (const int32_t slot : state_.tracks.landmark) state_.map.landmark(slot).followed = false;
+  let_go();
   state_.tracks.clear();
   for (const PatchMatch& match : found_.matches) {
     state_.tracks.add(match.point, cv::Point2f(), match.landmark);
@@ -291,9 +295,7 @@ void Mapper::begin_segment(int32_t id) {
   state_.posed = 0;
   adjusted_posed_ = 0;
   bootstrap_.restart(id);
-  for (size_t i = 0; i < state_.tracks.size(); ++i) {
-    state_.map.landmark(state_.tracks.landmark[i]).followed = false;
-  }
+  let_go();
   for (size_t i = 0; i < state_.tracks.size(); ++i) {
     const int32_t slot = state_.map.add_landmark(state_.segment);
     state_.map.landmark(slot).followed = true;

@@ -56,6 +56,8 @@ class Mapper {
  private:
   void tell_zoom(int64_t frame);
   void note_followed();
+  /// The landmarks of the tracks are no longer followed.
+  void let_go();
   void observe_tracks(size_t first);
   void detect_tracks();
   void try_start(int32_t id);

@@ -5,27 +5,21 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/video/tracking.hpp>
 
 #include "drivers/geometric/image/frame_tracker.hpp"
-#include "drivers/geometric/image/patch_likeness.hpp"
 
 namespace unisim::geometric {
 
 namespace {
-constexpr int kTile = kPatchSide;
-constexpr int kLevels = 1;
 constexpr int kMinSupport = 3;
 constexpr float kSearchMargin = 12.0F;
 constexpr float kAcceptMargin = 10.0F;
 constexpr double kMaxLogScale = 0.35;  // between the depths of patch and frame
 constexpr double kMaxViewAngle = 0.6;  // rad
 constexpr double kViewAngleUnit = 0.5;
-constexpr double kMaxRoll = 0.35;  // rad
-constexpr double kMaxBackwardError = 1.0;
+constexpr double kMaxRoll = 0.35;      // rad
 constexpr double kMaxDistance = 15.0;  // pixels at the reference diagonal
-constexpr double kMinCorrelation = 0.7;
-constexpr double kOccupied = 0.5;  // of the feature spacing
+constexpr double kOccupied = 0.5;      // of the feature spacing
 constexpr double kCrowded = 0.35;
 constexpr double kNewViewCost = 0.5;  // a patch is kept when no kept one is nearer in view
 constexpr double kNoView = 1e9;
@@ -46,13 +40,9 @@ double view_difference(const CameraPose& a, const CameraPose& b, const Eigen::Ve
 
 }  // namespace
 
-void Revive::reserve(size_t landmarks, size_t tries, const cv::Size& size) {
+void Revive::reserve(size_t landmarks, const cv::Size& size) {
   candidates_.reserve(landmarks);
-  for (auto* points : {&from_, &to_, &back_}) points->reserve(tries);
-  for (auto* flags : {&found_, &found_back_}) flags->reserve(tries);
-  error_.reserve(tries);
-  atlas_.gray.create(size, CV_8UC1);
-  atlas_.gray.setTo(0);
+  atlas_.open(size);
 }
 
 void Revive::collect(const PatchStore& patches, const CameraPose& pose, int32_t keyframe,
@@ -90,30 +80,14 @@ void Revive::collect(const PatchStore& patches, const CameraPose& pose, int32_t 
 }
 
 void Revive::fill_atlas(const PatchStore& patches, size_t first, size_t count) {
-  const int columns = atlas_.gray.cols / kTile;
-  from_.clear();
-  to_.clear();
+  atlas_.clear();
   for (size_t j = 0; j < count; ++j) {
     const Candidate& candidate = candidates_[first + j];
-    const int left = static_cast<int>(j) % columns * kTile;
-    const int top = static_cast<int>(j) / columns * kTile;
-    patches.pixels(candidate.landmark, candidate.patch)
-        .copyTo(atlas_.gray(cv::Rect(left, top, kTile, kTile)));
+    patches.pixels(candidate.landmark, candidate.patch).copyTo(atlas_.tile(j));
     const cv::Point2f& offset = patches.view(candidate.landmark, candidate.patch).offset;
-    const cv::Point middle(left + kTile / 2, top + kTile / 2);
-    from_.push_back(cv::Point2f(middle) + offset);
-    to_.push_back(candidate.expected);
+    const cv::Point middle = atlas_.corner(j) + cv::Point(kPatchSide / 2, kPatchSide / 2);
+    atlas_.add(cv::Point2f(middle) + offset, candidate.expected);
   }
-  cv::buildOpticalFlowPyramid(atlas_.gray, atlas_.pyramid, cv::Size(kTrackWindow, kTrackWindow),
-                              kLevels, true);
-}
-
-bool Revive::accept(size_t j, const Candidate& candidate, const PreparedImage& current,
-                    double pixel_scale) const {
-  return found_[j] && found_back_[j] && cv::norm(back_[j] - from_[j]) <= kMaxBackwardError &&
-         inside_image(to_[j], current.gray.size(), kAcceptMargin) &&
-         cv::norm(to_[j] - candidate.expected) <= kMaxDistance * pixel_scale &&
-         correlation(atlas_.gray, from_[j], current.gray, to_[j]) >= kMinCorrelation;
 }
 
 int Revive::run(const PatchStore& patches, const PreparedImage& current, const CameraPose& pose,
@@ -123,27 +97,21 @@ int Revive::run(const PatchStore& patches, const PreparedImage& current, const C
     cv::circle(*mask, cv::Point(p), reach, cv::Scalar(255), -1);
   }
   collect(patches, pose, keyframe, *mask, *state);
-  const size_t tiles =
-      static_cast<size_t>(atlas_.gray.cols / kTile) * static_cast<size_t>(atlas_.gray.rows / kTile);
-  const cv::Size window(kTrackWindow, kTrackWindow);
+  const size_t tiles = atlas_.capacity();
+  const double distance = kMaxDistance * state->pixel_scale;
   int added = 0;
   for (size_t first = 0; tiles > 0 && first < candidates_.size(); first += tiles) {
     const size_t count = std::min(tiles, candidates_.size() - first);
     fill_atlas(patches, first, count);
-    back_ = from_;
-    cv::calcOpticalFlowPyrLK(atlas_.pyramid, current.pyramid, from_, to_, found_, error_, window,
-                             kLevels, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW, kMinTexture);
-    cv::calcOpticalFlowPyrLK(current.pyramid, atlas_.pyramid, to_, back_, found_back_, error_,
-                             window, kLevels, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW,
-                             kMinTexture);
+    atlas_.find(current, kMinTexture);
     for (size_t j = 0; j < count; ++j) {
       const Candidate& candidate = candidates_[first + j];
-      if (!accept(j, candidate, current, state->pixel_scale)) continue;
-      const cv::Point at(to_[j]);
+      if (!atlas_.found(j, current, distance, kAcceptMargin)) continue;
+      const cv::Point at(atlas_.found_at(j));
       if (mask->at<uint8_t>(at)) continue;
       const int crowd = std::max(2, static_cast<int>(kCrowded * state->feature_spacing));
       cv::circle(*mask, at, crowd, cv::Scalar(255), -1);
-      state->tracks.add(to_[j], flow, candidate.landmark);
+      state->tracks.add(atlas_.found_at(j), flow, candidate.landmark);
       state->map.landmark(candidate.landmark).followed = true;
       ++added;
     }
@@ -181,8 +149,7 @@ void Revive::store_patches(const State& state, const PreparedImage& current, int
 }
 
 int64_t Revive::bytes() const {
-  return static_cast<int64_t>(candidates_.capacity() * sizeof(Candidate)) +
-         prepared_image_bytes(atlas_.gray.cols, atlas_.gray.rows);
+  return static_cast<int64_t>(candidates_.capacity() * sizeof(Candidate)) + atlas_.bytes();
 }
 
 }  // namespace unisim::geometric

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "drivers/geometric/image/patch_atlas.hpp"
 #include "drivers/geometric/image/patch_store.hpp"
 #include "drivers/geometric/image/prepared_image.hpp"
 #include "drivers/geometric/map/state.hpp"
@@ -14,7 +15,7 @@ namespace unisim::geometric {
 
 class Revive {
  public:
-  void reserve(size_t landmarks, size_t tries, const cv::Size& size);
+  void reserve(size_t landmarks, const cv::Size& size);
 
   /// Adds tracks for landmarks found in `current`, the image of a frame with this pose.
   /// @param mask set where none may be; changed  @param flow start velocity of the new tracks
@@ -38,17 +39,9 @@ class Revive {
   void collect(const PatchStore& patches, const CameraPose& pose, int32_t keyframe,
                const cv::Mat& occupied, const State& state);
   void fill_atlas(const PatchStore& patches, size_t first, size_t count);
-  bool accept(size_t j, const Candidate& candidate, const PreparedImage& current,
-              double pixel_scale) const;
 
   std::vector<Candidate> candidates_;
-  PreparedImage atlas_;
-  std::vector<cv::Point2f> from_;
-  std::vector<cv::Point2f> to_;
-  std::vector<cv::Point2f> back_;
-  std::vector<uint8_t> found_;
-  std::vector<uint8_t> found_back_;
-  std::vector<float> error_;
+  PatchAtlas atlas_;
 };
 
 }  // namespace unisim::geometric

@@ -6,18 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/video/tracking.hpp>
 
+#include "drivers/common/median.hpp"
 #include "drivers/geometric/image/frame_tracker.hpp"
-#include "drivers/geometric/image/patch_likeness.hpp"
+#include "drivers/geometric/places/pose_fit.hpp"
 
 namespace unisim::geometric {
 
 namespace {
 
-constexpr int kTile = kPatchSide;
-constexpr float kTileMiddle = 0.5F * (kTile - 1);
-constexpr int kLevels = 1;
+constexpr float kTileMiddle = 0.5F * (kPatchSide - 1);
 constexpr float kMargin = 12.0F;      // from the border to what is looked for
 constexpr double kMaxScale = 2.5;     // between the depths of patch and image
 constexpr double kMinStretch = 0.05;  // determinant of the map from patch to image
@@ -27,50 +25,9 @@ constexpr double kReach[] = {15.0, 8.0, 8.0, 8.0};
 constexpr double kGrowth = 1.1;   // of the inliers, from round to round, else it is the last
 constexpr double kFlat = 2.0;     // grey levels: a patch that says nothing on the contrast
 constexpr double kMaxGain = 4.0;  // beyond, grey levels are too few
-constexpr double kMaxBackwardError = 1.0;
-constexpr double kMinCorrelation = 0.7;
 constexpr double kGates[kFitRounds + 1] = {16.0, 8.0, 4.0, 3.0};
-constexpr int kMinForFit = 6;
-constexpr double kFitWidth = 2.0;
-constexpr int kFitIterations = 10;
 
 }  // namespace
-
-int fit_pose(const State& state, std::vector<PoseObservation>* observations, const double* gates,
-             CameraPose* pose, std::vector<uint8_t>* inlier) {
-  const CameraModel& camera = state.intrinsics.camera;
-  PoseOptions options;
-  options.pixel_scale = state.pixel_scale;
-  options.cauchy = kFitWidth;
-  options.max_iterations = kFitIterations;
-  const auto within = [&](double gate) {
-    int count = 0;
-    for (size_t i = 0; i < observations->size(); ++i) {
-      const PoseObservation& seen = (*observations)[i];
-      Eigen::Vector2d at;
-      const bool near = camera.project_undistorted(pose->apply(seen.point_world), &at) &&
-                        (at - seen.undistorted_px).norm() < gate * state.pixel_scale;
-      (*inlier)[i] = near ? 1 : 0;
-      (*observations)[i].weight = near ? 1.0 : 0.0;
-      count += near ? 1 : 0;
-    }
-    return count;
-  };
-  inlier->assign(observations->size(), 0);
-  for (int round = 0; round < kFitRounds; ++round) {
-    if (within(gates[round]) < kMinForFit) return 0;
-    const PoseResult result = solve_pose(camera, *pose, observations->data(),
-                                         static_cast<int>(observations->size()), options, nullptr);
-    if (result.status != PoseStatus::kOk || !result.pose.t.allFinite()) return 0;
-    *pose = result.pose;
-  }
-  return within(gates[kFitRounds]);
-}
-
-void PatchCheck::open(const cv::Size& size) {
-  atlas_.gray.create(size, CV_8UC1);
-  atlas_.gray.setTo(0);
-}
 
 /// A patch is seen as a plane that faced its camera.
 bool PatchCheck::aim(const State& state, const PatchStore& patches, int32_t landmark,
@@ -125,68 +82,44 @@ bool PatchCheck::aim(const State& state, const PatchStore& patches, int32_t land
 /// Patches kept in another light get the contrast of the image: one factor for all.
 void PatchCheck::match_contrast(const cv::Mat& image) {
   ratios_.clear();
-  for (size_t j = 0; j < from_.size(); ++j) {
+  const cv::Size side(kPatchSide, kPatchSide);
+  for (size_t j = 0; j < atlas_.size(); ++j) {
     cv::Scalar mean, sigma_tile, sigma_image;
-    cv::meanStdDev(tile(j), mean, sigma_tile);
-    const cv::Rect around(cv::Point(to_[j]) - cv::Point(kTile / 2, kTile / 2),
-                          cv::Size(kTile, kTile));
+    cv::meanStdDev(atlas_.tile(j), mean, sigma_tile);
+    const cv::Rect around(cv::Point(atlas_.expected(j)) - cv::Point(kPatchSide / 2, kPatchSide / 2),
+                          side);
     cv::meanStdDev(image(around & cv::Rect(cv::Point(), image.size())), mean, sigma_image);
     if (sigma_tile[0] > kFlat) ratios_.push_back(sigma_image[0] / sigma_tile[0]);
   }
   if (ratios_.empty()) return;
-  const auto middle = ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 2);
-  std::nth_element(ratios_.begin(), middle, ratios_.end());
-  const double gain = std::clamp(*middle, 1 / kMaxGain, kMaxGain);
-  atlas_.gray.convertTo(atlas_.gray, CV_8U, gain, kMiddleGray * (1 - gain));
-}
-
-cv::Mat PatchCheck::tile(size_t j) {
-  const int columns = atlas_.gray.cols / kTile;
-  const int at = static_cast<int>(j);
-  return atlas_.gray(cv::Rect(at % columns * kTile, at / columns * kTile, kTile, kTile));
+  const double gain = std::clamp(drivers::median(&ratios_), 1 / kMaxGain, kMaxGain);
+  atlas_.gray().convertTo(atlas_.gray(), CV_8U, gain, kMiddleGray * (1 - gain));
 }
 
 void PatchCheck::draw(const PatchStore& patches, size_t first, size_t count, const cv::Mat& image) {
-  from_.clear();
-  to_.clear();
+  atlas_.clear();
   for (size_t j = 0; j < count; ++j) {
     const Target& target = targets_[first + j];
-    cv::Mat drawn = tile(j);
+    cv::Mat drawn = atlas_.tile(j);
     cv::warpAffine(patches.pixels(target.landmark, target.patch), drawn, target.patch_of_tile,
                    drawn.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
-    cv::Size whole;
-    cv::Point corner;
-    drawn.locateROI(whole, corner);
-    from_.push_back(cv::Point2f(corner) + cv::Point2f(kTileMiddle, kTileMiddle));
-    to_.push_back(target.expected);
+    atlas_.add(cv::Point2f(atlas_.corner(j)) + cv::Point2f(kTileMiddle, kTileMiddle),
+               target.expected);
   }
   match_contrast(image);
-  cv::buildOpticalFlowPyramid(atlas_.gray, atlas_.pyramid, cv::Size(kTrackWindow, kTrackWindow),
-                              kLevels, true);
 }
 
 void PatchCheck::follow(const State& state, const PatchStore& patches, const PreparedImage& current,
                         double reach, std::vector<PatchMatch>* found) {
-  const auto tiles =
-      static_cast<size_t>(atlas_.gray.cols / kTile) * static_cast<size_t>(atlas_.gray.rows / kTile);
-  const cv::Size window(kTrackWindow, kTrackWindow);
+  const size_t tiles = atlas_.capacity();
   for (size_t first = 0; tiles > 0 && first < targets_.size(); first += tiles) {
     const size_t count = std::min(tiles, targets_.size() - first);
     draw(patches, first, count, current.gray);
-    back_ = from_;
-    cv::calcOpticalFlowPyrLK(atlas_.pyramid, current.pyramid, from_, to_, found_, error_, window,
-                             kLevels, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW);
-    cv::calcOpticalFlowPyrLK(current.pyramid, atlas_.pyramid, to_, back_, found_back_, error_,
-                             window, kLevels, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW);
+    atlas_.find(current, kUsualTexture);
     for (size_t j = 0; j < count; ++j) {
-      const Target& target = targets_[first + j];
-      const bool good = found_[j] && found_back_[j] &&
-                        cv::norm(back_[j] - from_[j]) < kMaxBackwardError &&
-                        cv::norm(to_[j] - target.expected) < reach &&
-                        inside_image(to_[j], state.size, kTrackMargin) &&
-                        correlation(atlas_.gray, from_[j], current.gray, to_[j]) > kMinCorrelation;
-      if (!good) continue;
-      found->push_back({target.landmark, state.map.landmark(target.landmark).generation, to_[j]});
+      if (!atlas_.found(j, current, reach, kTrackMargin)) continue;
+      const int32_t landmark = targets_[first + j].landmark;
+      found->push_back({landmark, state.map.landmark(landmark).generation, atlas_.found_at(j)});
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/geometric/bundle/pose_solver.hpp"
+#include "drivers/geometric/image/patch_atlas.hpp"
 #include "drivers/geometric/image/patch_store.hpp"
 #include "drivers/geometric/image/prepared_image.hpp"
 #include "drivers/geometric/map/state.hpp"
@@ -26,16 +27,9 @@ struct PatchCheckResult {
   std::vector<PatchMatch> inliers;
 };
 
-inline constexpr int kFitRounds = 3;
-/// Rounds of least squares, each on the observations within its gate of the pose before.
-/// @param gates kFitRounds + 1, pixels at the reference diagonal
-/// @param[out] inlier flags within the last gate @return their number, 0: too few for a round
-int fit_pose(const State& state, std::vector<PoseObservation>* observations, const double* gates,
-             CameraPose* pose, std::vector<uint8_t>* inlier);
-
 class PatchCheck {
  public:
-  void open(const cv::Size& size);
+  void open(const cv::Size& size) { atlas_.open(size); }
   /// @param landmarks slots to look for  @param start supposed pose of the image
   void run(const State& state, const PatchStore& patches, const PreparedImage& current,
            const int32_t* landmarks, size_t count, const CameraPose& start, PatchCheckResult* out);
@@ -49,20 +43,13 @@ class PatchCheck {
   };
   bool aim(const State& state, const PatchStore& patches, int32_t landmark, const CameraPose& pose,
            Target* out) const;
-  cv::Mat tile(size_t j);
   void draw(const PatchStore& patches, size_t first, size_t count, const cv::Mat& image);
   void match_contrast(const cv::Mat& image);
   void follow(const State& state, const PatchStore& patches, const PreparedImage& current,
               double reach, std::vector<PatchMatch>* found);
 
   std::vector<Target> targets_;
-  PreparedImage atlas_;
-  std::vector<cv::Point2f> from_;
-  std::vector<cv::Point2f> to_;
-  std::vector<cv::Point2f> back_;
-  std::vector<uint8_t> found_;
-  std::vector<uint8_t> found_back_;
-  std::vector<float> error_;
+  PatchAtlas atlas_;
   std::vector<double> ratios_;
   std::vector<PoseObservation> observations_;
   std::vector<uint8_t> inlier_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "drivers/geometric/places/pose_fit.hpp"
 #include "drivers/geometric/places/pose_search.hpp"
 
 namespace unisim::geometric {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "drivers/geometric/places/pose_fit.hpp"
+
 namespace unisim::geometric {
 
 namespace {
@@ -42,14 +44,9 @@ std::array<size_t, 3> draw_three(size_t count, Draw* draw) {
 
 int count_within(const CameraModel& camera, const std::vector<PoseObservation>& observations,
                  double gate, const CameraPose& pose) {
-  int count = 0;
-  for (const PoseObservation& seen : observations) {
-    Eigen::Vector2d at;
-    const bool near = camera.project_undistorted(pose.apply(seen.point_world), &at) &&
-                      (at - seen.undistorted_px).squaredNorm() < gate * gate;
-    count += near ? 1 : 0;
-  }
-  return count;
+  return static_cast<int>(
+      std::count_if(observations.begin(), observations.end(),
+                    [&](const PoseObservation& seen) { return agrees(camera, pose, seen, gate); }));
 }
 
 /// Rounds after which a share of right ones has come up together but for a chance of kEnough.

@@ -28,9 +28,9 @@ constexpr double kLeastShare = 0.3;
 }  // namespace
 
 void ZoomJump::reserve(size_t points) {
-  for (auto* list : {&scaled_, &found_, &back_}) list->reserve(points);
-  for (auto* flags : {&forward_ok_, &back_ok_}) flags->reserve(points);
-  patch_error_.reserve(points);
+  flow_.reserve(points);
+  for (auto* list : {&scaled_, &found_}) list->reserve(points);
+  agree_.reserve(points);
 }
 
 bool ZoomJump::stands_out(double error) {
@@ -58,43 +58,34 @@ bool ZoomJump::search(const PreparedImage& previous, const PreparedImage& curren
                    cv::BORDER_REPLICATE);
     cv::buildOpticalFlowPyramid(warped_, pyramid_, cv::Size(kTrackWindow, kTrackWindow),
                                 kPyramidLevels, true);
-    scaled_.clear();
+    flow_.clear();
     for (size_t i = 0; i < points.size(); i += step) {
       const cv::Point2f at = centre + s * (points[i] - centre);
-      if (inside_image(at, size, kTrackMargin)) scaled_.push_back(at);
+      if (inside_image(at, size, kTrackMargin)) flow_.add(at, at);
     }
-    const size_t seen = scaled_.size();
+    const size_t seen = flow_.size();
     if (seen < kLeastPoints || match(current) < kLeastPoints) continue;
     const cv::Mat fit =
-        cv::estimateAffinePartial2D(scaled_, found_, forward_ok_, cv::RANSAC, kSameScale);
+        cv::estimateAffinePartial2D(scaled_, found_, agree_, cv::RANSAC, kSameScale);
     if (fit.empty()) continue;
     const double whole = scale * std::hypot(fit.at<double>(0, 0), fit.at<double>(1, 0));
-    const double share =
-        static_cast<double>(cv::countNonZero(forward_ok_)) / static_cast<double>(seen);
+    const double share = static_cast<double>(cv::countNonZero(agree_)) / static_cast<double>(seen);
     if (share >= kLeastShare && std::fabs(std::log(whole)) >= std::log(kLeastJump)) return true;
   }
   return false;
 }
 
 size_t ZoomJump::match(const PreparedImage& current) {
-  const cv::Size window(kTrackWindow, kTrackWindow);
-  found_ = scaled_;
-  cv::calcOpticalFlowPyrLK(pyramid_, current.pyramid, scaled_, found_, forward_ok_, patch_error_,
-                           window, kPyramidLevels, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW);
-  back_ = scaled_;
-  cv::calcOpticalFlowPyrLK(current.pyramid, pyramid_, found_, back_, back_ok_, patch_error_, window,
-                           kPyramidLevels, track_criteria(), cv::OPTFLOW_USE_INITIAL_FLOW);
-  size_t kept = 0;
-  for (size_t i = 0; i < scaled_.size(); ++i) {
-    if (!forward_ok_[i] || !back_ok_[i]) continue;
-    if (cv::norm(back_[i] - scaled_[i]) >= kMaxBackwardError) continue;
-    if (!inside_image(found_[i], current.gray.size(), kTrackMargin)) continue;
-    scaled_[kept] = scaled_[i];
-    found_[kept++] = found_[i];
+  flow_.run(pyramid_, current.pyramid, kPyramidLevels, kUsualTexture);
+  scaled_.clear();
+  found_.clear();
+  for (size_t i = 0; i < flow_.size(); ++i) {
+    if (!flow_.came_back(i, kMaxBackwardError)) continue;
+    if (!inside_image(flow_.to(i), current.gray.size(), kTrackMargin)) continue;
+    scaled_.push_back(flow_.from(i));
+    found_.push_back(flow_.to(i));
   }
-  scaled_.resize(kept);
-  found_.resize(kept);
-  return kept;
+  return scaled_.size();
 }
 
 }  // namespace unisim::geometric

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "drivers/geometric/image/prepared_image.hpp"
+#include "drivers/geometric/image/two_way_flow.hpp"
 
 namespace unisim::geometric {
 
@@ -25,18 +26,16 @@ class ZoomJump {
   bool stands_out(double error);
   bool search(const PreparedImage& previous, const PreparedImage& current,
               const std::vector<cv::Point2f>& points);
-  /// Points of scaled_ that are found in `current`, there and back. @return their number
+  /// Fills scaled_ and found_ with the points that are found in `current`. @return their number
   size_t match(const PreparedImage& current);
 
   double usual_error_ = -1;
   cv::Mat warped_;
   std::vector<cv::Mat> pyramid_;
-  std::vector<cv::Point2f> scaled_;
-  std::vector<cv::Point2f> found_;
-  std::vector<cv::Point2f> back_;
-  std::vector<uchar> forward_ok_;
-  std::vector<uchar> back_ok_;
-  std::vector<float> patch_error_;
+  TwoWayFlow flow_;
+  std::vector<cv::Point2f> scaled_;  // what was followed both ways, in the scaled frame ...
+  std::vector<cv::Point2f> found_;   // ... and in the present one
+  std::vector<uchar> agree_;
 };
 
 }  // namespace unisim::geometric
