@@ -1,27 +1,11 @@
 # SPDX-License-Identifier: MIT
 # Build the library for a processor with no operating system, and list what it asks of whoever links it: no more than
 # ALLOWED, a file with a symbol a line.
-foreach(program arm-none-eabi-g++ arm-none-eabi-nm arm-none-eabi-ld make)
-  find_program(found_${program} ${program})
-  if(NOT found_${program})
-    message("skipped: ${program} is not installed (tools/bootstrap.sh dev installs it)")
-    return()
-  endif()
-endforeach()
-find_program(ccache ccache)
-set(launcher "")
-if(ccache)
-  set(launcher -DCMAKE_C_COMPILER_LAUNCHER=${ccache} -DCMAKE_CXX_COMPILER_LAUNCHER=${ccache})
-endif()
-execute_process(
-  COMMAND ${CMAKE_COMMAND} -S ${ROOT} -B ${FOLDER} -G "Unix Makefiles" -Wno-dev
-    -DCMAKE_TOOLCHAIN_FILE=${ROOT}/cmake/toolchains/bare_metal_arm.cmake -DEigen3_DIR=${EIGEN}
-    -DCMAKE_BUILD_TYPE=MinSizeRel -DUNISIM_ISA=default ${launcher}
-    -DUNISIM_BUILD_TESTS=OFF -DUNISIM_BUILD_TOOLS=OFF -DUNISIM_DRIVER_REPLAY=OFF
-    -DUNISIM_DRIVER_GEOMETRIC=OFF -DUNISIM_DRIVER_ONNX=OFF -DUNISIM_DRIVER_LCM=OFF
-  OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${CMAKE_COMMAND} --build ${FOLDER} --target unisim_static --parallel 2
-  OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+include(${CMAKE_CURRENT_LIST_DIR}/../support/library_alone.cmake)
+need_programs(arm-none-eabi-g++ arm-none-eabi-nm arm-none-eabi-ld make)
+configure_library(-G "Unix Makefiles" -Wno-dev -DCMAKE_TOOLCHAIN_FILE=${ROOT}/cmake/toolchains/bare_metal_arm.cmake
+  -DEigen3_DIR=${EIGEN} -DCMAKE_BUILD_TYPE=MinSizeRel -DUNISIM_ISA=default)
+build_library(unisim_static)
 
 # All objects as one: what is left open is open for those who link it.
 execute_process(COMMAND arm-none-eabi-ld -r --whole-archive ${FOLDER}/capi/libunisim.a -o ${FOLDER}/unisim.o
