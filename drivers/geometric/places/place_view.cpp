@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "drivers/geometric/places/nearest_descriptors.hpp"
+
 namespace unisim::geometric {
 
 namespace {
@@ -14,9 +16,8 @@ constexpr int32_t kNeighbours = 2;
 constexpr int kMinSupport = 2;
 // Redkitchen, pairs of keyframes by overlap: with 72 and 0.9 too many wrong pairs come through for
 // the rounds of the pose search.
-constexpr float kMaxDistance = 64.0F;
-constexpr float kMaxRatio = 0.8F;
-constexpr int kNearest = 4;  // of which one belongs to another landmark, as a rule
+constexpr int32_t kMaxDistance = 64;
+constexpr double kMaxRatio = 0.8;
 
 }  // namespace
 
@@ -58,23 +59,16 @@ void PlaceViewer::collect(const State& state, const DescriptorStore& store, int3
 void match_features(const OrbFeatureSet& features, const PlaceView& place,
                     std::vector<FeaturePair>* out) {
   out->clear();
-  if (features.point.size() < 2 || place.descriptor.size() < 2) return;
-  // cv::Mat has no read-only view; the matcher only reads.
-  auto* rows = const_cast<uint8_t*>(place.descriptor.front().data());
-  const cv::Mat landmarks(static_cast<int>(place.descriptor.size()), kOrbBytes, CV_8UC1, rows);
-  std::vector<std::vector<cv::DMatch>> nearest;
-  cv::BFMatcher(cv::NORM_HAMMING).knnMatch(features.descriptor, landmarks, nearest, kNearest);
-  std::vector<FeaturePair> best(place.landmark.size(), {-1, -1, 0.0F});
-  for (const auto& found : nearest) {
-    if (found.empty() || found[0].distance > kMaxDistance) continue;
-    const int32_t owner = place.owner[static_cast<size_t>(found[0].trainIdx)];
-    const auto other = std::find_if(found.begin() + 1, found.end(), [&](const cv::DMatch& match) {
-      return place.owner[static_cast<size_t>(match.trainIdx)] != owner;
-    });
-    if (other != found.end() && found[0].distance > kMaxRatio * other->distance) continue;
-    FeaturePair& kept = best[static_cast<size_t>(owner)];
-    if (kept.feature >= 0 && kept.distance <= found[0].distance) continue;
-    kept = {found[0].queryIdx, owner, found[0].distance};
+  std::vector<FeaturePair> best(place.landmark.size(), {-1, -1, 0});
+  for (int f = 0; f < features.descriptor.rows; ++f) {
+    const NearestDescriptors nearest =
+        nearest_descriptors(place.descriptor, place.owner, features.descriptor.ptr<uint8_t>(f));
+    if (nearest.distance > kMaxDistance || nearest.distance > kMaxRatio * nearest.runner_up) {
+      continue;
+    }
+    FeaturePair& kept = best[static_cast<size_t>(nearest.group)];
+    if (kept.feature >= 0 && kept.distance <= nearest.distance) continue;
+    kept = {f, nearest.group, nearest.distance};
   }
   std::copy_if(best.begin(), best.end(), std::back_inserter(*out),
                [](const FeaturePair& pair) { return pair.feature >= 0; });

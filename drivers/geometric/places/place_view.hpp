@@ -33,7 +33,7 @@ class PlaceViewer {
 struct FeaturePair {
   int32_t feature;
   int32_t landmark;  ///< index into PlaceView::landmark
-  float distance;
+  int32_t distance;
 };
 void match_features(const OrbFeatureSet& features, const PlaceView& place,
                     std::vector<FeaturePair>* out);
