@@ -91,11 +91,16 @@ typedef struct unisim_feature {
   int32_t placed; /**< 1: its place in space is known */
 } unisim_feature;
 
+/** What a keyframe was compared with an older one for. */
+#define UNISIM_PLACE_LOOP 0 /**< to close a loop */
+#define UNISIM_PLACE_LOST 1 /**< the track was lost: where is the camera? */
+#define UNISIM_PLACE_JOIN 2 /**< to join the older one's segment to its own */
+
 /** A keyframe compared with an older one that looks like it. */
 typedef struct unisim_place_report {
   int32_t keyframe;      /**< the newer one */
   int32_t candidate;     /**< the older one */
-  int32_t lost;          /**< 1: the track was lost, 0: looked for a loop */
+  int32_t asked;         /**< UNISIM_PLACE_* */
   int32_t score;         /**< of the descriptors; says in which order candidates were tried */
   int32_t matches;       /**< features that show the same landmark */
   int32_t pose_inliers;  /**< matches that agree on a pose */
@@ -124,6 +129,7 @@ typedef struct unisim_predictor_info {
   int32_t loops_tried;    /**< old keyframes looked at for a loop, in the whole run */
   int32_t loops_accepted; /**< of these: counted loops */
   int32_t relocalised;    /**< times a lost track was found again in the map */
+  int32_t joined;         /**< segments that were joined to another one */
 } unisim_predictor_info;
 
 /** A predictor. Free with destroy(predictor). Functions marked optional may be NULL. */

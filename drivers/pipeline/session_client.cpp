@@ -48,6 +48,7 @@ Preparation SessionClient::create(const unisim_config& config) {
                                                 std::to_string(size >> 20) +
                                                 " MiB; lower session.max_keyframes"};
   }
+  loop_gate_ = config.sigma_gate_loop;
   status = unisim_session_create(&session_, &config, arena_.get(), size);
   return status == UNISIM_OK ? Preparation() : failed(status);
 }

@@ -33,6 +33,8 @@ class SessionClient {
   Preparation create(const unisim_config& config);
   /// NULL before create() or when it failed.
   unisim_session* handle() const { return session_; }
+  /// Largest center_sigma with which a loop is taken.
+  double loop_gate() const { return loop_gate_; }
 
   unisim_status add_keyframe(int64_t timestamp_ns, int32_t* id);
   unisim_status add_two_view(int32_t i, int32_t j, const unisim_pair_prediction& pair);
@@ -58,6 +60,7 @@ class SessionClient {
   const HeapWatch* watch_;
   std::unique_ptr<char[]> arena_;
   unisim_session* session_ = nullptr;
+  double loop_gate_ = 0.0;
 };
 
 }  // namespace unisim::pipeline

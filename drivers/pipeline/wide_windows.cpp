@@ -2,35 +2,108 @@
 // Hands wide windows to the session and takes those back that a newer one says better.
 #include "drivers/pipeline/wide_windows.hpp"
 
+#include <algorithm>
+#include <limits>
+
 namespace unisim::pipeline {
 namespace {
 
 // Few can end before the middle of the next; the session keeps what is forgotten here.
 constexpr size_t kMostKept = 8;
+constexpr int32_t kLeastViews = 2;  // of each of two segments
 
 }  // namespace
 
 WideWindows::WideWindows(SessionClient* session) : session_(session) { kept_.reserve(kMostKept); }
 
+/// Nothing has left the sliding window: revisions say it all.
+bool WideWindows::all_is_held() const {
+  unisim_session_info info{};
+  return session_->get_info(&info) == UNISIM_OK && info.retired_keyframes == 0;
+}
+
 bool WideWindows::wanted() const {
   unisim_session_info info{};
-  return session_->get_info(&info) == UNISIM_OK && info.retired_keyframes > 0;
+  if (session_->get_info(&info) != UNISIM_OK) return false;
+  return info.retired_keyframes > 0 || info.segments > 1 || !joins_.empty();
+}
+
+/// -1 without a pose.
+int32_t WideWindows::segment_of(int32_t keyframe_id) const {
+  unisim_pose pose{};
+  return session_->get_pose(keyframe_id, &pose) == UNISIM_OK ? pose.segment : -1;
+}
+
+/// Is the window the first to see two segments? The younger one's keyframes go into `join`.
+bool WideWindows::joins(const unisim_window_prediction& window, Join* join) const {
+  int32_t oldest = std::numeric_limits<int32_t>::max();
+  int32_t youngest = -1;
+  for (int32_t k = 0; k < window.count; ++k) {
+    const int32_t segment = segment_of(window.keyframe_ids[k]);
+    if (segment >= 0) oldest = std::min(oldest, segment);
+    youngest = std::max(youngest, segment);
+  }
+  unisim_session_info info{};
+  if (youngest <= oldest || session_->get_info(&info) != UNISIM_OK) return false;
+  join->first = -1;
+  for (int32_t id = info.first_keyframe; id <= info.last_posed; ++id) {
+    if (segment_of(id) != youngest) continue;
+    if (join->first < 0) join->first = id;
+    join->last = id;
+  }
+  return true;
 }
 
 unisim_status WideWindows::take(const unisim_window_prediction& window, bool* taken) {
   *taken = false;
+  Join join{};
+  const bool joins_segments = joins(window, &join);
+  const bool holds =
+      joins_segments ||
+      std::any_of(joins_.begin(), joins_.end(), [&](const Join& j) { return covers(window, j); });
+  if (!holds && all_is_held()) return UNISIM_OK;
+  unisim_window_prediction measured = window;
+  // However poor: nothing else ties the two together.
+  if (holds) measured.center_sigma = std::min(window.center_sigma, session_->loop_gate());
   int32_t submap_id = -1;
-  const unisim_status status = session_->add_loop(window, &submap_id);
+  const unisim_status status = session_->add_loop(measured, &submap_id);
   *taken = status == UNISIM_OK && submap_id >= 0;
   if (status == UNISIM_ERR_RETIRED || status == UNISIM_ERR_CAPACITY ||
       status == UNISIM_ERR_NOT_READY || status == UNISIM_ERR_INVALID_ARGUMENT) {
     return UNISIM_OK;
   }
   if (!*taken) return status;
-  const unisim_status dropped = drop_outdated(window);
+  unisim_status dropped = drop_outdated(window);
+  for (Join& older : joins_) {
+    if (!covers(window, older)) continue;
+    if (dropped == UNISIM_OK) dropped = remove(older.submap_id);
+    older.submap_id = submap_id;
+  }
+  if (joins_segments) {
+    if (joins_.size() == kMostKept) joins_.erase(joins_.begin());
+    joins_.push_back({submap_id, join.first, join.last});
+  }
+  if (holds) return dropped;
   if (kept_.size() == kMostKept) kept_.erase(kept_.begin());
   kept_.push_back({submap_id, window.keyframe_ids[window.count - 1]});
   return dropped;
+}
+
+/// Does the window tie the two together as well?
+bool WideWindows::covers(const unisim_window_prediction& window, const Join& join) {
+  int32_t inside = 0;
+  for (int32_t k = 0; k < window.count; ++k) {
+    const int32_t id = window.keyframe_ids[k];
+    inside += id >= join.first && id <= join.last ? 1 : 0;
+  }
+  return inside >= kLeastViews && window.count - inside >= kLeastViews;
+}
+
+/// It may have left the session's memory by itself.
+unisim_status WideWindows::remove(int32_t submap_id) {
+  const unisim_status status = session_->remove_loop(submap_id);
+  const bool gone = status == UNISIM_ERR_RETIRED || status == UNISIM_ERR_INVALID_ARGUMENT;
+  return gone ? UNISIM_OK : status;
 }
 
 unisim_status WideWindows::drop_outdated(const unisim_window_prediction& newest) {
@@ -42,10 +115,8 @@ unisim_status WideWindows::drop_outdated(const unisim_window_prediction& newest)
       kept_[left++] = kept;
       continue;
     }
-    const unisim_status status = session_->remove_loop(kept.submap_id);
-    // It may have left the session's memory by itself.
-    const bool gone = status == UNISIM_ERR_RETIRED || status == UNISIM_ERR_INVALID_ARGUMENT;
-    if (status != UNISIM_OK && !gone) return status;
+    const unisim_status status = remove(kept.submap_id);
+    if (status != UNISIM_OK) return status;
   }
   kept_.resize(left);
   return UNISIM_OK;

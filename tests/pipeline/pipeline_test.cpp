@@ -250,6 +250,24 @@ TEST_CASE("wide windows correct what has left the sliding window, newer ones in 
   CHECK(with < 0.95 * without);
 }
 
+TEST_CASE("a wide window over two segments joins them, a newer one takes its place") {
+  const auto wide_every = GENERATE(0, 12);
+  Run run(300);
+  run.config.max_loops = 16;
+  run.config.window_size = 16;
+  run.predictor.wide_every = wide_every;
+  for (const int32_t pair : {17, 18, 19, 20}) run.predictor.rejected_pairs.insert(pair);
+  for (int32_t first = 3; first <= 20; ++first) run.predictor.rejected_windows.insert(first);
+  REQUIRE(run.go().outcome == Outcome::kFinished);
+  CHECK(run.info().retired_keyframes == 0);
+  CHECK(run.info().segments == (wide_every > 0 ? 1 : 2));
+  CHECK(run.info().loops - run.info().loops_removed == (wide_every > 0 ? 1 : 0));
+  if (wide_every == 0) return;
+  CHECK(run.info().loops > 1);
+  CHECK(run.pose(0).segment == run.pose(35).segment);
+  CHECK(Run::distance(run.pose(35).T_world_kf, 5 * 35) < 1e-3);
+}
+
 TEST_CASE("no wide window is asked for while the sliding window holds every keyframe") {
   Run run;
   run.predictor.wide_every = 9;

@@ -137,9 +137,10 @@ void add_protocol(const Run& run, report::ReportData* page) {
                        o.settings.session.window_size, o.settings.session.window_overlap)},
       {"segments", segments_text(run.scores)},
       {"predictor", o.predictor},
-      {"loops", text("%d counted of %d old keyframes compared, %d times found again after a loss",
+      {"loops", text("%d counted of %d old keyframes compared, %d times found again after a loss, "
+                     "%d segments joined",
                      run.result.predictor.loops_accepted, run.result.predictor.loops_tried,
-                     run.result.predictor.relocalised)},
+                     run.result.predictor.relocalised, run.result.predictor.joined)},
       {"intrinsics", o.settings.geometric.focal_px > 0.0 ? "given" : "estimated"},
       {"ground truth", run.truth.name.empty() ? "none" : run.truth.name},
       {"alignment", "Sim(3), final and live poses each by themselves"}};

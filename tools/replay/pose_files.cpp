@@ -29,6 +29,17 @@ void append_seconds(std::string* text, int64_t time_ns) {
          static_cast<long long>(size % kSecond));
 }
 
+const char* asked_for(int32_t asked) {
+  switch (asked) {
+    case UNISIM_PLACE_LOST:
+      return "lost";
+    case UNISIM_PLACE_JOIN:
+      return "join";
+    default:
+      return "loop";
+  }
+}
+
 }  // namespace
 
 std::string trajectory_header(const std::string& title, double scale) {
@@ -74,7 +85,7 @@ std::string place_table(const unisim_predictor_info& info) {
   for (int32_t k = 0; k < info.place_count; ++k) {
     const unisim_place_report& report = info.places[k];
     append(&text, "%d,%d,%s,%d,%d,%d,%d,%d,%d,%s\n", report.keyframe, report.candidate,
-           report.lost != 0 ? "lost" : "loop", report.score, report.matches, report.pose_inliers,
+           asked_for(report.asked), report.score, report.matches, report.pose_inliers,
            report.patch_inliers, report.in_view, report.accepted, report.reason);
   }
   return text;

@@ -183,6 +183,7 @@ Json summary_json(const Run& run) {
           {"keyframes_unposed", info.keyframes - info.posed_keyframes},
           {"lost_events", info.lost_events},
           {"relocalised", run.result.predictor.relocalised},
+          {"segments_joined", run.result.predictor.joined},
           {"segment_scores", segments_json(run.scores)},
           {"segments", info.segments},
           {"pairs_refused", info.pairs_refused},

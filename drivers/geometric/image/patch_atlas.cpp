@@ -46,7 +46,9 @@ size_t PatchAtlas::capacity() const {
          static_cast<size_t>(atlas_.gray.rows / kPatchSide);
 }
 
+/// What is looked for at a tile's edge reaches beyond it: nothing older may stand there.
 void PatchAtlas::clear() {
+  atlas_.gray.setTo(kMiddleGray);
   flow_.clear();
   expected_.clear();
 }

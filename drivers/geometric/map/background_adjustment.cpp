@@ -12,6 +12,15 @@ namespace {
 constexpr double kTolerance = 1e-4;
 constexpr size_t kMinRatios = 5;
 constexpr size_t kSpreadViews = 16;  // of a wide window
+constexpr size_t kJoinedViews = 4;   // of them, in a segment that has been joined
+
+void append_evenly(const std::vector<int32_t>& from, size_t views, std::vector<int32_t>* out) {
+  const size_t last = from.size() - 1;
+  for (size_t i = 0; i < views && views > 1; ++i) {
+    out->push_back(from[(i * last + (views - 1) / 2) / (views - 1)]);
+  }
+}
+
 }  // namespace
 
 BackgroundAdjustment::BackgroundAdjustment(const BundleCapacity& capacity, const MapCapacity& map,
@@ -21,11 +30,13 @@ BackgroundAdjustment::BackgroundAdjustment(const BundleCapacity& capacity, const
       worker_([this] { work(); }, threaded) {
   keyframes_.reserve(static_cast<size_t>(map.keyframes));
   spread_.reserve(kSpreadViews);
+  spread_from_.reserve(static_cast<size_t>(map.keyframes));
   ratios_.reserve(static_cast<size_t>(map.observations_per_keyframe));
 }
 
 void BackgroundAdjustment::start(const State& state, int32_t keyframe, int iterations,
-                                 std::vector<LoopObservation>* loops) {
+                                 std::vector<LoopObservation>* loops,
+                                 const std::vector<int32_t>& joined) {
   loops_.swap(*loops);
   loops->clear();
   keyframes_.clear();
@@ -33,7 +44,7 @@ void BackgroundAdjustment::start(const State& state, int32_t keyframe, int itera
     const Keyframe& from = state.map.keyframe(k);
     if (from.posed && from.segment == state.segment) keyframes_.push_back(k);
   }
-  choose_spread();
+  choose_spread(joined);
   adjustment_.build(state, keyframes_.data(), keyframes_.size(), loops_);
   segment_ = state.segment;
   started_at_ = keyframe;
@@ -42,13 +53,16 @@ void BackgroundAdjustment::start(const State& state, int32_t keyframe, int itera
   worker_.start();
 }
 
-void BackgroundAdjustment::choose_spread() {
+void BackgroundAdjustment::choose_spread(const std::vector<int32_t>& joined) {
   spread_.clear();
-  const size_t last = keyframes_.size() - 1;
-  const size_t views = std::min(kSpreadViews, keyframes_.size());
-  for (size_t i = 0; i < views && views > 1; ++i) {
-    spread_.push_back(keyframes_[(i * last + (views - 1) / 2) / (views - 1)]);
+  spread_from_.clear();
+  for (const int32_t id : joined) {
+    if (std::binary_search(keyframes_.begin(), keyframes_.end(), id)) spread_from_.push_back(id);
   }
+  append_evenly(spread_from_, std::min(kJoinedViews, spread_from_.size()), &spread_);
+  append_evenly(keyframes_, std::min(kSpreadViews, keyframes_.size()) - spread_.size(), &spread_);
+  std::sort(spread_.begin(), spread_.end());
+  spread_.erase(std::unique(spread_.begin(), spread_.end()), spread_.end());
 }
 
 void BackgroundAdjustment::work() {
@@ -61,7 +75,7 @@ void BackgroundAdjustment::work() {
   spread_sigma_ = precision.valid ? precision.center_sigma : 0;
 }
 
-BackgroundAdjustment::Move BackgroundAdjustment::move_of_newest(const State& state) {
+WorldMove BackgroundAdjustment::move_of_newest(const State& state) {
   const int32_t newest = keyframes_.back();
   const CameraPose& now = state.map.keyframe(newest).pose;
   const CameraPose& better =
@@ -77,7 +91,7 @@ BackgroundAdjustment::Move BackgroundAdjustment::move_of_newest(const State& sta
         better.apply(adjustment_.problem().point(static_cast<int>(p)).position).z();
     if (depth > kMinDepth && depth_better > kMinDepth) ratios_.push_back(depth_better / depth);
   }
-  Move move;
+  WorldMove move;
   if (ratios_.size() >= kMinRatios) {
     move.scale = drivers::median(&ratios_);
   }
@@ -86,13 +100,11 @@ BackgroundAdjustment::Move BackgroundAdjustment::move_of_newest(const State& sta
   return move;
 }
 
-void BackgroundAdjustment::move_rest(const Move& move, State* state) {
+void BackgroundAdjustment::move_rest(const WorldMove& move, State* state) {
   for (int32_t k = keyframes_.back() + 1; k < state->map.end_id(); ++k) {
     Keyframe& later = state->map.keyframe(k);
     if (!later.posed) continue;
-    const Eigen::Vector3d center = move.scale * (move.R * later.pose.center()) + move.t;
-    later.pose.R = later.pose.R * move.R.transpose();
-    later.pose.t = -(later.pose.R * center);
+    later.pose = move.apply(later.pose);
   }
   std::fill(adjusted_.begin(), adjusted_.end(), uint8_t{0});
   for (size_t p = 0; p < adjustment_.points(); ++p) {
@@ -104,7 +116,7 @@ void BackgroundAdjustment::move_rest(const Move& move, State* state) {
     Landmark& mark = state->map.landmark(slot);
     if (mark.state != LandmarkState::kPlaced || mark.segment != segment_) continue;
     if (adjusted_[static_cast<size_t>(slot)]) continue;
-    mark.position = move.scale * (move.R * mark.position) + move.t;
+    mark.position = move.apply(mark.position);
   }
   state->median_depth *= move.scale;
 }

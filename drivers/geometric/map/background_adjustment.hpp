@@ -9,6 +9,7 @@
 #include "drivers/geometric/map/background_worker.hpp"
 #include "drivers/geometric/map/map_adjustment.hpp"
 #include "drivers/geometric/map/state.hpp"
+#include "drivers/geometric/map/world_move.hpp"
 
 namespace unisim::geometric {
 
@@ -31,8 +32,9 @@ class BackgroundAdjustment {
   /// Copies the segment's posed keyframes and begins.
   /// @param loops observations to take in, by landmark and keyframe; emptied. merge() puts those
   ///              that fit then into the map
+  /// @param joined keyframes of a segment that was joined to this one: spread() has some of them
   void start(const State& state, int32_t keyframe, int iterations,
-             std::vector<LoopObservation>* loops);
+             std::vector<LoopObservation>* loops, const std::vector<int32_t>& joined);
   /// Waits for the result and takes it into the state; what was added meanwhile moves along.
   /// Throws what the adjustment threw. @return false when the result no longer fits (the segment
   /// ended)
@@ -41,22 +43,18 @@ class BackgroundAdjustment {
   int64_t bytes() const { return adjustment_.bytes(); }
 
  private:
-  /// Similarity p' = scale R p + t from the present world to the adjusted one.
-  struct Move {
-    double scale = 1;
-    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d t = Eigen::Vector3d::Zero();
-  };
-  void choose_spread();
+  void choose_spread(const std::vector<int32_t>& joined);
   void work();
-  Move move_of_newest(const State& state);
-  void move_rest(const Move& move, State* state);
+  /// From the present world to the adjusted one.
+  WorldMove move_of_newest(const State& state);
+  void move_rest(const WorldMove& move, State* state);
   void take(State* state);
   void take_loops(State* state);
 
   MapAdjustment adjustment_;
   std::vector<int32_t> keyframes_;
   std::vector<int32_t> spread_;
+  std::vector<int32_t> spread_from_;
   std::vector<LoopObservation> loops_;
   std::vector<double> ratios_;
   std::vector<uint8_t> adjusted_;  // by landmark: is in the problem

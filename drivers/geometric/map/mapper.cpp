@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/geometric/map/join_segments.hpp"
 #include "drivers/geometric/start/start_report.hpp"
 
 namespace unisim::geometric {
@@ -71,7 +72,8 @@ double angle_between(const CameraPose& a, const CameraPose& b) {
 Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
     : state_(config, map_capacity(config)),
       patches_(config.max_landmarks),
-      places_(state_.config, static_cast<size_t>(per_keyframe(config))),
+      revive_(&atlas_),
+      places_(state_.config, static_cast<size_t>(per_keyframe(config)), &atlas_),
       window_(window_capacity(config), map_capacity(config)),
       background_(whole_capacity(config), map_capacity(config), config.background != 0) {
   state_.size = size;
@@ -88,7 +90,9 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
   growth_.reserve(tracks, static_cast<size_t>(config.max_keyframes));
   bootstrap_.reserve(tracks);
   zoom_.reserve(tracks);
-  revive_.reserve(static_cast<size_t>(config.max_landmarks), size);
+  atlas_.open(size);
+  revive_.reserve(static_cast<size_t>(config.max_landmarks));
+  joined_ids_.reserve(static_cast<size_t>(config.max_keyframes));
   window_ids_.reserve(static_cast<size_t>(config.max_keyframes));
 }
 
@@ -238,14 +242,38 @@ void Mapper::recover(int32_t id, const CameraPose& near) {
 }
 
 void Mapper::adjust_whole(int32_t id) {
-  if (state_.config.adjust_every == 0 || state_.early() || background_.running()) return;
+  if (state_.config.adjust_every == 0 || background_.running()) return;
+  if (join(id) || state_.early()) return;
   const int32_t held = std::min(state_.posed, state_.map.end_id() - state_.map.first_id());
   const int32_t gap = std::max(state_.config.adjust_every, held / kWholeGapShare);
   const bool loop = places_.loops().waiting(state_.segment);
   if (state_.posed < adjusted_posed_ + (loop ? kLoopGap : gap)) return;
   adjusted_posed_ = state_.posed;
   places_.loops().take(state_, &loops_);
-  background_.start(state_, id, loop ? kLoopIterations : kWholeIterations, &loops_);
+  background_.start(state_, id, loop ? kLoopIterations : kWholeIterations, &loops_, joined_ids_);
+}
+
+bool Mapper::join(int32_t id) {
+  SegmentJoin found;
+  if (!places_.take_join(state_, &found, &loops_)) return false;
+  const int32_t present = state_.segment;
+  const bool older = found.segment < present;
+  const int32_t from = older ? present : found.segment;
+  int32_t others = 0;
+  joined_ids_.clear();
+  for (int32_t k = state_.map.first_id(); k < state_.map.end_id(); ++k) {
+    const Keyframe& held = state_.map.keyframe(k);
+    if (held.posed && held.segment == from) joined_ids_.push_back(k);
+    others += held.posed && held.segment == found.segment ? 1 : 0;
+  }
+  // The larger one knows the camera better.
+  if (others > state_.posed) state_.intrinsics = lost_intrinsics_;
+  places_.loops().forget(from);
+  join_segments(&state_, from, older ? found.segment : present,
+                older ? found.move.inverse() : found.move);
+  adjusted_posed_ = state_.posed;
+  background_.start(state_, id, kFinalIterations, &loops_, joined_ids_);
+  return true;
 }
 
 bool Mapper::waited_long() const {
@@ -349,12 +377,13 @@ double Mapper::window_sigma(const int32_t* ids, size_t count) {
 bool Mapper::finish() {
   keep_place();
   bool changed = background_.running() && background_.merge(&state_);
-  places_.finish();
+  places_.finish(state_);
   if (!state_.initialised || state_.config.adjust_every == 0) return changed;
   const int32_t newest = state_.posed_before(state_.map.end_id());
+  if (newest >= 0 && join(newest)) changed = background_.merge(&state_) || changed;
   for (int round = 0; newest >= 0 && round < kFinalRounds; ++round) {
     places_.loops().take(state_, &loops_);
-    background_.start(state_, newest, kFinalIterations, &loops_);
+    background_.start(state_, newest, kFinalIterations, &loops_, joined_ids_);
     changed = background_.merge(&state_) || changed;
   }
   return changed;
@@ -362,8 +391,8 @@ bool Mapper::finish() {
 
 int64_t Mapper::bytes() const {
   const auto tracks = static_cast<int64_t>(state_.tracks.point.capacity());
-  return state_.map.bytes() + patches_.bytes() + places_.bytes() + revive_.bytes() +
-         window_.bytes() + background_.bytes() + front_end_.bytes() +
+  return state_.map.bytes() + patches_.bytes() + atlas_.bytes() + places_.bytes() +
+         revive_.bytes() + window_.bytes() + background_.bytes() + front_end_.bytes() +
          tracks * static_cast<int64_t>(3 * sizeof(cv::Point2f) + sizeof(int32_t) + 1);
 }
 

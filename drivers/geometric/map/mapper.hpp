@@ -77,6 +77,8 @@ class Mapper {
   void begin_segment(int32_t id);
   void adjust_window(int32_t id);
   void adjust_whole(int32_t id);
+  /// Joins another segment to the present one where places have shown how they lie.
+  bool join(int32_t id);
   void note_motion(int32_t id);
 
   State state_;
@@ -85,10 +87,12 @@ class Mapper {
   LandmarkGrowth growth_;
   Bootstrap bootstrap_;
   PatchStore patches_;
+  PatchAtlas atlas_;
   Revive revive_;
   Places places_;
   PlaceFound found_;
   std::vector<LoopObservation> loops_;
+  std::vector<int32_t> joined_ids_;  // keyframes of the segment that was joined last
   ZoomWatch zoom_;
   MapAdjustment window_;
   BackgroundAdjustment background_;

@@ -40,10 +40,7 @@ double view_difference(const CameraPose& a, const CameraPose& b, const Eigen::Ve
 
 }  // namespace
 
-void Revive::reserve(size_t landmarks, const cv::Size& size) {
-  candidates_.reserve(landmarks);
-  atlas_.open(size);
-}
+void Revive::reserve(size_t landmarks) { candidates_.reserve(landmarks); }
 
 void Revive::collect(const PatchStore& patches, const CameraPose& pose, int32_t keyframe,
                      const cv::Mat& occupied, const State& state) {
@@ -149,7 +146,7 @@ void Revive::store_patches(const State& state, const PreparedImage& current, int
 }
 
 int64_t Revive::bytes() const {
-  return static_cast<int64_t>(candidates_.capacity() * sizeof(Candidate)) + atlas_.bytes();
+  return static_cast<int64_t>(candidates_.capacity() * sizeof(Candidate));
 }
 
 }  // namespace unisim::geometric

@@ -15,7 +15,9 @@ namespace unisim::geometric {
 
 class Revive {
  public:
-  void reserve(size_t landmarks, const cv::Size& size);
+  /// @param atlas to draw patches in; nothing of it is kept from one call to the next
+  explicit Revive(PatchAtlas* atlas) : atlas_(*atlas) {}
+  void reserve(size_t landmarks);
 
   /// Adds tracks for landmarks found in `current`, the image of a frame with this pose.
   /// @param mask set where none may be; changed  @param flow start velocity of the new tracks
@@ -41,7 +43,7 @@ class Revive {
   void fill_atlas(const PatchStore& patches, size_t first, size_t count);
 
   std::vector<Candidate> candidates_;
-  PatchAtlas atlas_;
+  PatchAtlas& atlas_;
 };
 
 }  // namespace unisim::geometric

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Outlier rules of the running state.
+// Outlier rules of the running state, and its segments.
 #include "drivers/geometric/map/state.hpp"
 
 #include <algorithm>
@@ -35,6 +35,13 @@ void cull_landmark(State* state, int32_t slot, double gate) {
 
 }  // namespace
 
+void sort_by_landmark(std::vector<LoopObservation>* observations) {
+  std::sort(observations->begin(), observations->end(),
+            [](const LoopObservation& a, const LoopObservation& b) {
+              return a.landmark != b.landmark ? a.landmark < b.landmark : a.keyframe < b.keyframe;
+            });
+}
+
 void State::enter(int32_t older_segment) {
   segment = older_segment;
   segment_start = map.end_id();
@@ -45,6 +52,13 @@ void State::enter(int32_t older_segment) {
     segment_start = std::min(segment_start, k);
     posed += held.posed ? 1 : 0;
   }
+}
+
+bool State::other_segments() const {
+  for (int32_t k = map.first_id(); k < map.end_id(); ++k) {
+    if (map.keyframe(k).posed && map.keyframe(k).segment != segment) return true;
+  }
+  return false;
 }
 
 double reprojection_error(const State& state, const Observation& seen, const Keyframe& from,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "drivers/geometric/geometric.h"
 #include "drivers/geometric/image/tracks.hpp"
@@ -25,6 +26,8 @@ struct LoopObservation {
   int32_t keyframe = -1;
   cv::Point2f point;
 };
+/// By landmark and keyframe, as MapAdjustment::build() wants them.
+void sort_by_landmark(std::vector<LoopObservation>* observations);
 
 struct State {
   explicit State(const unisim_geometric_config& configuration, const MapCapacity& capacity)
@@ -45,6 +48,9 @@ struct State {
 
   /// Goes on in an older segment.
   void enter(int32_t older_segment);
+
+  /// Does the map hold posed keyframes of another segment?
+  bool other_segments() const;
 
   bool early() const { return posed <= kEarlyKeyframes; }
   /// Newest posed keyframe of the segment before `id`, -1 if none.

@@ -66,6 +66,10 @@ const std::vector<int32_t>& LoopBook::drop_unconfirmed(int32_t newest) {
   return dropped_;
 }
 
+void LoopBook::forget(int32_t segment) {
+  for (Loop& loop : loops_) loop.taken |= loop.segment == segment;
+}
+
 bool LoopBook::waiting(int32_t segment) const {
   return std::any_of(loops_.begin(), loops_.end(), [&](const Loop& loop) {
     return !loop.taken && loop.counts && loop.segment == segment;
@@ -89,9 +93,7 @@ void LoopBook::take(const State& state, std::vector<LoopObservation>* out) {
       out->push_back({match.landmark, match.generation, loop.keyframe, match.point});
     }
   }
-  std::sort(out->begin(), out->end(), [](const LoopObservation& a, const LoopObservation& b) {
-    return a.landmark != b.landmark ? a.landmark < b.landmark : a.keyframe < b.keyframe;
-  });
+  sort_by_landmark(out);
 }
 
 int64_t LoopBook::bytes() const {

@@ -22,6 +22,8 @@ class LoopBook {
   void add(const State& state, int32_t id, const PlaceFound& found);
   /// Drops loops that no keyframe agreed with in time. @return their keyframes
   const std::vector<int32_t>& drop_unconfirmed(int32_t newest);
+  /// The segment's world is no longer the one that its loops were found in.
+  void forget(int32_t segment);
   /// Is there a loop that counts, of this segment?
   bool waiting(int32_t segment) const;
   /// Is there one that waits for a second to agree?

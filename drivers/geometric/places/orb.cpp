@@ -111,4 +111,11 @@ void Orb::describe_points(const cv::Mat& gray, const std::vector<cv::Point2f>& p
   }
 }
 
+int64_t Orb::bytes() const {
+  size_t images = look_.total();
+  for (const cv::Mat& level : levels_) images += level.total();
+  const size_t feature = sizeof(cv::KeyPoint) + kOrbBytes + sizeof(int) + sizeof(size_t);
+  return static_cast<int64_t>(images + kAsked * feature);
+}
+
 }  // namespace unisim::geometric

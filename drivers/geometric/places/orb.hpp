@@ -39,6 +39,9 @@ class Orb {
   void describe_points(const cv::Mat& gray, const std::vector<cv::Point2f>& points,
                        std::vector<OrbDescriptor>* out, std::vector<uint8_t>* valid);
 
+  /// Between calls; OpenCV takes a pyramid of the image during one.
+  int64_t bytes() const;
+
  private:
   cv::Ptr<cv::ORB> detector_;
   cv::Ptr<cv::ORB> describer_;

@@ -29,7 +29,8 @@ struct PatchCheckResult {
 
 class PatchCheck {
  public:
-  void open(const cv::Size& size) { atlas_.open(size); }
+  /// @param atlas to draw patches in; nothing of it is kept from one call to the next
+  explicit PatchCheck(PatchAtlas* atlas) : atlas_(*atlas) {}
   /// @param landmarks slots to look for  @param start supposed pose of the image
   void run(const State& state, const PatchStore& patches, const PreparedImage& current,
            const int32_t* landmarks, size_t count, const CameraPose& start, PatchCheckResult* out);
@@ -49,7 +50,7 @@ class PatchCheck {
               double reach, std::vector<PatchMatch>* found);
 
   std::vector<Target> targets_;
-  PatchAtlas atlas_;
+  PatchAtlas& atlas_;
   std::vector<double> ratios_;
   std::vector<PoseObservation> observations_;
   std::vector<uint8_t> inlier_;

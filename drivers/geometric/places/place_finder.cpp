@@ -17,15 +17,24 @@ constexpr double kPoseGate = 4.0;  // pixels at the reference diagonal
 constexpr double kPoseGates[kFitRounds + 1] = {kPoseGate, kPoseGate, kPoseGate, kPoseGate};
 constexpr double kLinked = 0.5;  // share of a place's landmarks the keyframe sees anyway
 
+int32_t asked_of(PlaceFinder::Scope scope) {
+  switch (scope) {
+    case PlaceFinder::Scope::kSegment:
+      return UNISIM_PLACE_LOOP;
+    case PlaceFinder::Scope::kOtherSegments:
+      return UNISIM_PLACE_JOIN;
+    case PlaceFinder::Scope::kAll:
+      break;
+  }
+  return UNISIM_PLACE_LOST;
+}
+
 }  // namespace
 
-PlaceFinder::PlaceFinder(const unisim_geometric_config& config)
-    : config_(config), list_(config.max_keyframes), viewer_(config.max_landmarks) {}
+PlaceFinder::PlaceFinder(const unisim_geometric_config& config, PatchAtlas* atlas)
+    : config_(config), list_(config.max_keyframes), viewer_(config.max_landmarks), check_(atlas) {}
 
-void PlaceFinder::open(const cv::Size& size) {
-  orb_.open(size, config_.mask);
-  check_.open(size);
-}
+void PlaceFinder::open(const cv::Size& size) { orb_.open(size, config_.mask); }
 
 void PlaceFinder::see(const cv::Mat& gray, int32_t id) {
   orb_.describe(gray, &features_);
@@ -43,18 +52,23 @@ bool PlaceFinder::find(const State& state, const DescriptorStore& store, const P
                        std::vector<unisim_place_report>* log) {
   if (!describable_) return false;
   list_.forget_before(state.map.first_id());
+  int32_t tried = 0;
   for (const unisim_places_match& match :
-       list_.query(seen_, descriptor_.data(), question.gap, kSpread, question.tries)) {
+       list_.query(seen_, descriptor_.data(), question.gap, kSpread, config_.max_keyframes)) {
+    if (tried == question.tries) break;
     const Keyframe& from = state.map.keyframe(match.id);
-    if (!from.posed || (!question.lost && from.segment != state.segment)) continue;
+    const bool here = from.segment == state.segment;
+    if (!from.posed || (question.scope == Scope::kSegment && !here)) continue;
+    if (question.scope == Scope::kOtherSegments && here) continue;
+    ++tried;
     unisim_place_report report{};
     report.keyframe = seen_;
     report.candidate = match.id;
-    report.lost = question.lost ? 1 : 0;
+    report.asked = asked_of(question.scope);
     report.score = match.score;
     viewer_.collect(state, store, match.id, &view_);
     bool good = false;
-    if (!question.lost && linked(state)) {
+    if (question.scope == Scope::kSegment && linked(state)) {
       report.reason = "seen together already";
     } else {
       good = verify(state, patches, current, out, &report);
@@ -124,7 +138,7 @@ bool PlaceFinder::pose_from_features(const State& state, CameraPose* pose,
 
 int64_t PlaceFinder::bytes() const {
   const size_t features = kOrbFeatures * (sizeof(cv::Point2f) + kOrbBytes);
-  return list_.bytes() + static_cast<int64_t>(features) + config_.max_landmarks;
+  return list_.bytes() + orb_.bytes() + static_cast<int64_t>(features) + config_.max_landmarks;
 }
 
 }  // namespace unisim::geometric

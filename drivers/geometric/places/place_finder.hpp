@@ -22,7 +22,7 @@ struct PlaceFound {
 
 class PlaceFinder {
  public:
-  explicit PlaceFinder(const unisim_geometric_config& config);
+  PlaceFinder(const unisim_geometric_config& config, PatchAtlas* atlas);
   void open(const cv::Size& size);
 
   /// Describes the image of keyframe `id`, which may be asked for and added then.
@@ -31,10 +31,12 @@ class PlaceFinder {
   /// The keyframe seen last has a pose now.
   void add(const State& state);
 
+  /// Where to look: for a loop, for a segment to join, or anywhere while the track is lost.
+  enum class Scope { kSegment, kOtherSegments, kAll };
   struct Question {
+    Scope scope;
     int32_t gap;    ///< keyframes between the image and a candidate, at least
     int32_t tries;  ///< candidates
-    bool lost;      ///< there is no pose to go by; any segment will do
   };
   /// Looks for the keyframe seen last in the map. Appends what was tried to `log`.
   bool find(const State& state, const DescriptorStore& store, const PatchStore& patches,

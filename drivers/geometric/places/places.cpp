@@ -11,14 +11,16 @@ namespace {
 // While nothing can be followed there is time: after 60 black frames in redkitchen the right place
 // was among the first 4 for seven of ten keyframes.
 constexpr int32_t kLostTries = 8;
+// A segment that could be joined stays so for as long as the camera is near it.
+constexpr int32_t kJoinTries = 4;
 // Every second keyframe is a place, is looked for among the older ones, and costs the time for it;
 // the others describe their landmarks. One in between is looked for to confirm a loop.
 constexpr int32_t kEvery = 2;
 constexpr size_t kMostReports = 1024;
 }  // namespace
 
-Places::Places(const unisim_geometric_config& config, size_t tracks)
-    : config_(config), finder_(config), store_(config.max_landmarks, tracks) {
+Places::Places(const unisim_geometric_config& config, size_t tracks, PatchAtlas* atlas)
+    : config_(config), finder_(config, atlas), store_(config.max_landmarks, tracks) {
   tried_.reserve(static_cast<size_t>(std::max(config.loop_tries, kLostTries)));
   reports_.reserve(kMostReports);
 }
@@ -26,8 +28,9 @@ Places::Places(const unisim_geometric_config& config, size_t tracks)
 bool Places::relocalise(const Look& look, PlaceFound* out) {
   if (config_.places == 0) return false;
   finder_.see(look.gray, look.keyframe);
-  const bool found = finder_.find(look.state, store_, look.patches, look.current,
-                                  {1, kLostTries, true}, out, &tried_);
+  const PlaceFinder::Question question = {PlaceFinder::Scope::kAll, 1, kLostTries};
+  const bool found =
+      finder_.find(look.state, store_, look.patches, look.current, question, out, &tried_);
   relocalised_ += found ? 1 : 0;
   note_tried();
   return found;
@@ -35,21 +38,23 @@ bool Places::relocalise(const Look& look, PlaceFound* out) {
 
 void Places::keep(const Look& look) {
   if (config_.places == 0) return;
-  drop_unconfirmed(look.keyframe);
-  const bool found = finder_.seen(look.keyframe);
+  drop_unconfirmed(look.state, look.keyframe);
+  const bool seen = finder_.seen(look.keyframe);
   const bool place = look.keyframe % kEvery == 0;
   if (!place) store_.see(look.state, look.gray, look.keyframe, &finder_.orb());
-  if (!place && !loops_.hoping()) return;
-  if (!found) {
-    finder_.see(look.gray, look.keyframe);
-    try_loop(look);
-  }
+  const bool loop = place || loops_.hoping();
+  const bool bridge = look.state.other_segments() && (place || bridges_.hoping());
+  if (!loop && !bridge) return;
+  if (!seen) finder_.see(look.gray, look.keyframe);
+  if (loop && !seen) try_loop(look);
+  if (bridge) try_bridge(look);
   if (place) finder_.add(look.state);
 }
 
 void Places::try_loop(const Look& look) {
   if (config_.loop_tries == 0) return;
-  const PlaceFinder::Question question = {config_.loop_gap, config_.loop_tries, false};
+  const PlaceFinder::Question question = {PlaceFinder::Scope::kSegment, config_.loop_gap,
+                                          config_.loop_tries};
   const bool found =
       finder_.find(look.state, store_, look.patches, look.current, question, &found_, &tried_);
   if (found) loops_.add(look.state, look.keyframe, found_);
@@ -58,14 +63,36 @@ void Places::try_loop(const Look& look) {
   note_tried();
 }
 
-void Places::drop_unconfirmed(int32_t newest) {
+void Places::try_bridge(const Look& look) {
+  const PlaceFinder::Question question = {PlaceFinder::Scope::kOtherSegments, 1, kJoinTries};
+  if (finder_.find(look.state, store_, look.patches, look.current, question, &found_, &tried_)) {
+    bridges_.add(look.state, look.keyframe, found_);
+  }
+  note_tried();
+}
+
+bool Places::take_join(const State& state, SegmentJoin* out,
+                       std::vector<LoopObservation>* observations) {
+  if (!bridges_.take(state, out, observations)) return false;
+  ++joined_;
+  return true;
+}
+
+void Places::drop_unconfirmed(const State& state, int32_t newest) {
   for (const int32_t keyframe : loops_.drop_unconfirmed(newest)) {
     --loops_accepted_;
-    for (unisim_place_report& report : reports_) {
-      if (report.keyframe != keyframe || report.lost != 0 || report.accepted == 0) continue;
-      report.accepted = 0;
-      report.reason = "no other keyframe said the same";
-    }
+    withdraw(keyframe, UNISIM_PLACE_LOOP);
+  }
+  for (const int32_t keyframe : bridges_.drop_old(state, newest)) {
+    withdraw(keyframe, UNISIM_PLACE_JOIN);
+  }
+}
+
+void Places::withdraw(int32_t keyframe, int32_t asked) {
+  for (unisim_place_report& report : reports_) {
+    if (report.keyframe != keyframe || report.asked != asked || report.accepted == 0) continue;
+    report.accepted = 0;
+    report.reason = "no other keyframe said the same";
   }
 }
 
@@ -77,7 +104,9 @@ void Places::note_tried() {
   tried_.clear();
 }
 
-void Places::finish() { drop_unconfirmed(std::numeric_limits<int32_t>::max()); }
+void Places::finish(const State& state) {
+  drop_unconfirmed(state, std::numeric_limits<int32_t>::max());
+}
 
 void Places::info(unisim_predictor_info* out) const {
   out->places = reports_.data();
@@ -85,10 +114,11 @@ void Places::info(unisim_predictor_info* out) const {
   out->loops_tried = loops_tried_;
   out->loops_accepted = loops_accepted_;
   out->relocalised = relocalised_;
+  out->joined = joined_;
 }
 
 int64_t Places::bytes() const {
-  return finder_.bytes() + store_.bytes() + loops_.bytes() +
+  return finder_.bytes() + store_.bytes() + loops_.bytes() + bridges_.bytes() +
          static_cast<int64_t>(reports_.capacity() * sizeof(unisim_place_report));
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What the mapper has to do with places: keep them, find a lost camera, close loops.
+// What the mapper has to do with places: keep them, find a lost camera, close loops, join segments.
 #pragma once
 
 #include <vector>
 
+#include "drivers/geometric/places/bridge_book.hpp"
 #include "drivers/geometric/places/loop_book.hpp"
 #include "drivers/geometric/places/place_finder.hpp"
 
@@ -11,7 +12,8 @@ namespace unisim::geometric {
 
 class Places {
  public:
-  Places(const unisim_geometric_config& config, size_t tracks);
+  /// @param atlas see PatchCheck
+  Places(const unisim_geometric_config& config, size_t tracks, PatchAtlas* atlas);
   void open(const cv::Size& size) { finder_.open(size); }
 
   /// A keyframe as all steps see it.
@@ -25,31 +27,38 @@ class Places {
 
   /// While the track is lost: where in the map is the keyframe?
   bool relocalise(const Look& look, PlaceFound* out);
-  /// A keyframe has its pose: keeps the place, and looks for older views of it.
+  /// A keyframe has its pose: keeps the place, and looks for older views of it, in its segment and
+  /// in others.
   void keep(const Look& look);
 
   LoopBook& loops() { return loops_; }
+  /// Is another segment known to lie so and so to the present one? See BridgeBook::take().
+  bool take_join(const State& state, SegmentJoin* out, std::vector<LoopObservation>* observations);
   /// No more keyframes come: loops that wait for a second to agree are given up.
-  void finish();
+  void finish(const State& state);
   /// Fills the fields on places.
   void info(unisim_predictor_info* out) const;
   int64_t bytes() const;
 
  private:
   void try_loop(const Look& look);
-  void drop_unconfirmed(int32_t newest);
+  void try_bridge(const Look& look);
+  void drop_unconfirmed(const State& state, int32_t newest);
+  void withdraw(int32_t keyframe, int32_t asked);
   void note_tried();
 
   const unisim_geometric_config& config_;
   PlaceFinder finder_;
   DescriptorStore store_;
   LoopBook loops_;
+  BridgeBook bridges_;
   PlaceFound found_;
   std::vector<unisim_place_report> tried_;    // in the last search
   std::vector<unisim_place_report> reports_;  // the newest of the run
   int32_t loops_tried_ = 0;
   int32_t loops_accepted_ = 0;
   int32_t relocalised_ = 0;
+  int32_t joined_ = 0;
 };
 
 }  // namespace unisim::geometric

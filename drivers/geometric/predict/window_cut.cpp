@@ -55,7 +55,6 @@ void WindowCut::record(const State& state, int32_t keyframe, int64_t view) {
   const Keyframe& from = state.map.keyframe(keyframe);
   View& slot = views_[place(view)];
   slot.keyframe = keyframe;
-  slot.segment = from.segment;
   slot.pose = from.pose;
   const size_t base = place(view) * per_view_;
   for (size_t i = 0; i < per_view_; ++i) {
@@ -83,12 +82,14 @@ int64_t WindowCut::give(const State& state, const int32_t* ids, size_t count, do
   return token;
 }
 
+/// All views are still held, in one segment: which may be another one than then, since joined.
 bool WindowCut::measurable(const State& state, const Window& window) const {
+  const int32_t first = views_[place(window.first_view)].keyframe;
   for (size_t i = 0; i < window.count; ++i) {
     const View& view = views_[place(window.first_view + static_cast<int64_t>(i))];
     if (!state.map.holds(view.keyframe)) return false;
     const Keyframe& from = state.map.keyframe(view.keyframe);
-    if (!from.posed || from.segment != view.segment) return false;
+    if (!from.posed || from.segment != state.map.keyframe(first).segment) return false;
   }
   return true;
 }

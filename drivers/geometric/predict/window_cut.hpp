@@ -48,7 +48,6 @@ class WindowCut {
   };
   struct View {
     int32_t keyframe = -1;
-    int32_t segment = 0;
     CameraPose pose;
   };
   size_t place(int64_t view) const { return static_cast<size_t>(view) % views_.size(); }
