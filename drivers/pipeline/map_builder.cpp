@@ -80,6 +80,7 @@ Step MapBuilder::serve_pair(const unisim_request& request, bool* pending) {
                   "was lost for too long to be tied to the map");
   }
   if (status != UNISIM_OK) return session_failed("unisim_add_two_view", status);
+  if (prediction.gap > 0) wide_windows_.note_gap();
   last_settled_ = j;
   return Step::kOk;
 }

@@ -16,16 +16,16 @@ constexpr int32_t kLeastViews = 2;  // of each of two segments
 
 WideWindows::WideWindows(SessionClient* session) : session_(session) { kept_.reserve(kMostKept); }
 
-/// Nothing has left the sliding window: revisions say it all.
-bool WideWindows::all_is_held() const {
+/// Nothing has left the sliding window, and no gap is left out by all windows.
+bool WideWindows::revisions_say_all() const {
   unisim_session_info info{};
-  return session_->get_info(&info) == UNISIM_OK && info.retired_keyframes == 0;
+  return session_->get_info(&info) == UNISIM_OK && info.retired_keyframes == 0 && !gap_;
 }
 
 bool WideWindows::wanted() const {
   unisim_session_info info{};
   if (session_->get_info(&info) != UNISIM_OK) return false;
-  return info.retired_keyframes > 0 || info.segments > 1 || !joins_.empty();
+  return info.segments > 1 || !joins_.empty() || !revisions_say_all();
 }
 
 /// -1 without a pose.
@@ -61,7 +61,7 @@ unisim_status WideWindows::take(const unisim_window_prediction& window, bool* ta
   const bool holds =
       joins_segments ||
       std::any_of(joins_.begin(), joins_.end(), [&](const Join& j) { return covers(window, j); });
-  if (!holds && all_is_held()) return UNISIM_OK;
+  if (!holds && revisions_say_all()) return UNISIM_OK;
   unisim_window_prediction measured = window;
   // However poor: nothing else ties the two together.
   if (holds) measured.center_sigma = std::min(window.center_sigma, session_->loop_gate());

@@ -14,12 +14,15 @@ namespace unisim::pipeline {
 /// A predictor that adjusts all it holds gives a wide window each time. Newer ones were measured on
 /// the same images and more: one whose keyframes end before the middle of the newest stays, the
 /// others leave. As long as nothing has left the sliding window, revisions say it all and none is
-/// taken, but for those that join two segments, and what says that better later. 100 keyframes of
-/// redkitchen (ATE), a sliding window of 2 submaps: 0.0097 m without wide windows, 0.0082 m when
-/// every one stays, 0.0079 m so.
+/// taken, but for those that join two segments, and what says that better later, and after a gap.
+/// 100 keyframes of redkitchen (ATE), a sliding window of 2 submaps: 0.0097 m without wide windows,
+/// 0.0082 m when every one stays, 0.0079 m so.
 class WideWindows {
  public:
   explicit WideWindows(SessionClient* session);
+
+  /// The track was lost and found again: windows of neighbours may all end at the gap.
+  void note_gap() { gap_ = true; }
 
   /// One would be taken. Predictors are not asked before: a wide window costs them time.
   bool wanted() const;
@@ -41,7 +44,7 @@ class WideWindows {
     int32_t first;  // keyframes of the segment that was the younger one
     int32_t last;
   };
-  bool all_is_held() const;
+  bool revisions_say_all() const;
   int32_t segment_of(int32_t keyframe_id) const;
   bool joins(const unisim_window_prediction& window, Join* join) const;
   static bool covers(const unisim_window_prediction& window, const Join& join);
@@ -51,6 +54,7 @@ class WideWindows {
   SessionClient* session_;
   std::vector<Kept> kept_;
   std::vector<Join> joins_;
+  bool gap_ = false;
 };
 
 }  // namespace unisim::pipeline

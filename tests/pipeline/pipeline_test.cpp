@@ -268,6 +268,24 @@ TEST_CASE("a wide window over two segments joins them, a newer one takes its pla
   CHECK(Run::distance(run.pose(35).T_world_kf, 5 * 35) < 1e-3);
 }
 
+TEST_CASE("wide windows are taken after a gap, which windows of neighbours may not reach over") {
+  const auto lost = GENERATE(false, true);
+  Run run(300);
+  run.config.max_loops = 16;
+  run.predictor.wide_every = 12;
+  if (lost) {
+    for (const int32_t pair : {17, 18, 19}) run.predictor.rejected_pairs.insert(pair);
+    run.predictor.found_again = 20;
+    run.predictor.gap = 3;
+    for (int32_t first = 11; first <= 20; ++first) run.predictor.rejected_windows.insert(first);
+  }
+  REQUIRE(run.go().outcome == Outcome::kFinished);
+  CHECK(run.info().retired_keyframes == 0);
+  CHECK(run.info().segments == 1);
+  CHECK((run.info().loops > 0) == lost);
+  CHECK(Run::distance(run.pose(35).T_world_kf, 5 * 35) < 1e-3);
+}
+
 TEST_CASE("no wide window is asked for while the sliding window holds every keyframe") {
   Run run;
   run.predictor.wide_every = 9;

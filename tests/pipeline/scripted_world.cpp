@@ -159,8 +159,10 @@ int ScriptedPredictor::two_view(int32_t i, int32_t j, unisim_pair_prediction* ou
   if (rejected_pairs.count(i) != 0) return UNISIM_PREDICTION_REJECTED;
   const double unit = pair_unit(i);
   *out = {};
-  out->T_i_j = relative_pose(true_pose(keyframe_frame(i)), true_pose(keyframe_frame(j)), unit);
-  out->depth_i = depth_of(i, unit, &depth_i_);
+  out->gap = i == found_again ? gap : 0;
+  const int32_t from = i - out->gap;
+  out->T_i_j = relative_pose(true_pose(keyframe_frame(from)), true_pose(keyframe_frame(j)), unit);
+  out->depth_i = depth_of(from, unit, &depth_i_);
   out->depth_j = depth_of(j, unit, &depth_j_);
   if (nan_pairs.count(i) != 0) out->T_i_j.t[1] = std::numeric_limits<double>::quiet_NaN();
   if (empty_pairs.count(i) != 0) out->depth_j.width = 0;
