@@ -91,6 +91,20 @@ TEST_CASE("depth prints the time of a ratio by size") {
   CHECK(sizes.front().at("ms").get<double>() < sizes.back().at("ms").get<double>());
 }
 
+TEST_CASE("lanes prints the live pose beside slow windows and beside instant ones") {
+  Program program;
+  REQUIRE(program.run("lanes --repeat 1 --keyframes 32 --pair-ms 1 --window-s 0.2 --json") == 0);
+  const Json result = Json::parse(program.out);
+  CHECK(result.at("p95_over_instant").get<double>() > 0.0);
+  REQUIRE(result.at("runs").size() == 1);
+  for (const char* run : {"instant", "slow"}) {
+    const Json times = result.at("runs").front().at(run);
+    CHECK(times.at("p50_ms").get<double>() >= 1.0);
+    CHECK(times.at("p50_ms").get<double>() <= times.at("p95_ms").get<double>());
+    CHECK(times.at("windows_dropped") == 0);
+  }
+}
+
 TEST_CASE("covariance prints the times of one pose and of all, and what it read") {
   Program program;
   program.folder().write("triangle.usg",
@@ -116,6 +130,7 @@ TEST_CASE("unisim-bench says in one line what is wrong") {
   program.require_failure("", 2, "subcommand");
   program.require_failure("solver", 2, "graph");
   program.require_failure("solver graph.usg --repeat 0", 2, "--repeat");
+  program.require_failure("lanes --window-s -1", 2, "--window-s");
   program.require_failure("solver missing.usg", 3, "missing.usg");
   program.require_failure("window", 2, "--keyframes");
   program.require_failure("window --keyframes 10", 2, "--keyframes");

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// unisim-bench: times and memory of the solver, of a session on a long walk, of depth ratios and
-// places.
+// unisim-bench: times and memory of the solver, of a session on a long walk, of depth ratios,
+// places and the lanes of the pipeline.
 #include <CLI/CLI.hpp>
 #include <map>
 #include <string>
 
 #include "drivers/sequence/text_file.hpp"
 #include "tools/bench/depth/depth_command.hpp"
+#include "tools/bench/lanes/lanes_command.hpp"
 #include "tools/bench/places/places_command.hpp"
 #include "tools/bench/solver/covariance_command.hpp"
 #include "tools/bench/solver/solver_command.hpp"
@@ -123,6 +124,21 @@ void add_places(CLI::App* app, PlacesSettings* settings) {
   command->add_flag("--json", settings->json, "one line of JSON");
 }
 
+void add_lanes(CLI::App* app, LanesSettings* settings) {
+  CLI::App* command =
+      app->add_subcommand("lanes", "The live pose beside windows that take long, and none");
+  command->add_option("--keyframes", settings->keyframes, "of one run, 6 a second")
+      ->transform(in_range(Range::whole(32, 65536)));
+  command->add_option("--repeat", settings->repeat, "pairs of runs, the median ratio is shown")
+      ->transform(in_range(Range::whole(1, kMany)));
+  command->add_option("--window-s", settings->window_s, "seconds for a window")
+      ->transform(in_range(Range::number(0.0, 60.0)));
+  command->add_option("--pair-ms", settings->pair_ms, "milliseconds for a pair")
+      ->transform(in_range(Range::above(0.0, 100.0)));
+  command->add_flag("--busy", settings->busy, "windows are computed on this processor");
+  command->add_flag("--json", settings->json, "one line of JSON");
+}
+
 int bench(int argc, const char* const* argv) {
   CLI::App app("Times and memory of libunisim; times are CPU time of the process.");
   app.set_version_flag("--version", unisim::replay::version_text());
@@ -138,6 +154,8 @@ int bench(int argc, const char* const* argv) {
   add_window(&app, &walk, &walk_json);
   DepthSettings depth;
   add_depth(&app, &depth);
+  LanesSettings lanes;
+  add_lanes(&app, &lanes);
   PlacesSettings places;
   add_places(&app, &places);
   if (!unisim::tools::parse(&app, argc, argv)) return unisim::tools::kExitDone;
@@ -146,6 +164,7 @@ int bench(int argc, const char* const* argv) {
     if (app.got_subcommand("updates")) return update_command(updates);
     if (app.got_subcommand("covariance")) return covariance_command(covariance);
     if (app.got_subcommand("depth")) return depth_command(depth);
+    if (app.got_subcommand("lanes")) return lanes_command(lanes);
     if (app.got_subcommand("places")) return places_command(places);
     return solver_command(solver);
   } catch (const unisim::sequence::InputError& error) {
