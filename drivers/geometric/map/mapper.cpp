@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/geometric/map/capacities.hpp"
 #include "drivers/geometric/map/join_segments.hpp"
 #include "drivers/geometric/start/start_report.hpp"
 
@@ -30,38 +31,8 @@ constexpr int32_t kWholeGapShare =
     10;  // of the keyframes held: least gap between adjustments of all
 constexpr int kFinalIterations = 15;
 constexpr int kFinalRounds = 2;
-constexpr size_t kMaxEarlyWindow = 32;
 constexpr double kTurnRad = 0.017;       // turned on the spot: at least this angle ...
 constexpr double kTurnBaseline = 0.003;  // ... and at most this baseline over median depth
-
-int32_t per_keyframe(const unisim_geometric_config& config) {
-  return config.max_tracks + config.revive_tries;
-}
-
-MapCapacity map_capacity(const unisim_geometric_config& config) {
-  return {config.max_keyframes, config.max_landmarks, per_keyframe(config)};
-}
-
-size_t most_free(const unisim_geometric_config& config) {
-  return std::max(static_cast<size_t>(config.window_size), kMaxEarlyWindow);
-}
-
-BundleCapacity window_capacity(const unisim_geometric_config& config) {
-  BundleCapacity out;
-  out.cameras = config.max_keyframes;
-  out.free_cameras = std::max(static_cast<int>(most_free(config)), UNISIM_MAX_VIEWS);
-  out.points = std::min(config.max_landmarks, out.free_cameras * config.max_tracks);
-  out.observations = 2 * out.free_cameras * config.max_tracks;
-  return out;
-}
-
-BundleCapacity whole_capacity(const unisim_geometric_config& config) {
-  BundleCapacity out;
-  out.cameras = out.free_cameras = config.max_keyframes;
-  out.points = config.max_landmarks;
-  out.observations = config.max_keyframes * config.max_tracks;
-  return out;
-}
 
 double angle_between(const CameraPose& a, const CameraPose& b) {
   return Eigen::AngleAxisd(Eigen::Matrix3d(a.R * b.R.transpose())).angle();
@@ -73,7 +44,7 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
     : state_(config, map_capacity(config)),
       patches_(config.max_landmarks),
       revive_(&atlas_),
-      places_(state_.config, static_cast<size_t>(per_keyframe(config)), &atlas_),
+      places_(state_.config, static_cast<size_t>(observations_per_keyframe(config)), &atlas_),
       window_(window_capacity(config), map_capacity(config)),
       background_(whole_capacity(config), map_capacity(config), config.background != 0) {
   state_.size = size;
@@ -82,7 +53,7 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
       1,
       static_cast<int>(kSpacing * std::sqrt(static_cast<double>(size.area()) / config.max_tracks)));
   state_.intrinsics = Intrinsics::start(size, config.focal_px);
-  const auto tracks = static_cast<size_t>(per_keyframe(config));
+  const auto tracks = static_cast<size_t>(observations_per_keyframe(config));
   state_.tracks.reserve(tracks);
   places_.open(size);
   front_end_.open(size, config.max_tracks, state_.feature_spacing, config.mask);
