@@ -8,8 +8,9 @@
  *  Results are borrowed: valid until the next call of the same function.
  *
  *  Threads. Two groups of functions, in each of them one call at a time:
- *  - front: observe(), keyframe(), two_view(), frame_pose(), features(), message();
- *  - back: multi_view(), next_revision(), next_wide_window(), window_message().
+ *  - front: observe(), keyframe(), two_view(), frame_pose(), features(), place_descriptor(),
+ *    message();
+ *  - back: multi_view(), next_revision(), next_wide_window(), release_place(), window_message().
  *  With concurrent_windows the groups run beside each other, on two threads; without it all calls
  *  come from one thread. While finish(), info() or destroy() runs, nothing else does. */
 #ifndef UNISIM_DRIVERS_PREDICTOR_H
@@ -84,6 +85,16 @@ typedef struct unisim_frame_pose {
   int32_t keyframe_id;
 } unisim_frame_pose;
 
+/** What a keyframe looks like as a whole, to find it again among thousands. */
+typedef struct unisim_place_descriptor {
+  const int8_t* values; /**< as unisim_places_add() takes them; the larger the dot product of two
+                           vectors over their lengths, the more alike */
+  int32_t dimension;    /**< numbers; the same in the whole run */
+  int32_t image_width;  /**< pixels, for the unit of unisim_window_prediction.focal_px */
+  int32_t image_height; /**< pixels */
+  int32_t reserved;     /**< 0 */
+} unisim_place_descriptor;
+
 /** Something the predictor follows through the images. */
 typedef struct unisim_feature {
   float x; /**< pixels, pixel centres at whole numbers */
@@ -96,7 +107,9 @@ typedef struct unisim_feature {
 #define UNISIM_PLACE_LOST 1 /**< the track was lost: where is the camera? */
 #define UNISIM_PLACE_JOIN 2 /**< to join the older one's segment to its own */
 
-/** A keyframe compared with an older one that looks like it. */
+/** A keyframe compared with an older one that looks like it. With place_descriptor() depth is
+ * compared in place of features, on cells: `matches` of them, `pose_inliers` and `in_view` lie in
+ * the other view, `patch_inliers` have the depth that the other view has there. */
 typedef struct unisim_place_report {
   int32_t keyframe;      /**< the newer one */
   int32_t candidate;     /**< the older one */
@@ -190,6 +203,19 @@ struct unisim_predictor {
    *  @param[out] features valid until the next call of a function of the front group
    *  @return their number */
   int32_t (*features)(unisim_predictor* predictor, const unisim_feature** features);
+
+  /* Loops, for predictors without a map of their own: those that have one close them in it. Both
+   * functions or none; a table of a smaller struct_size has none, and its run has no loops. */
+
+  /** What keyframe `id`, the newest, looks like. From this call to release_place() the predictor
+   *  keeps what it needs to answer multi_view() of this keyframe together with any others that are
+   *  kept: the caller holds a bounded number of them. Without the call nothing is kept.
+   *  @param[out] out valid until the next call
+   *  @return UNISIM_PREDICTION_OK, _REJECTED (there is nothing to see: not kept), _FAILED */
+  int (*place_descriptor)(unisim_predictor* predictor, int32_t id, unisim_place_descriptor* out);
+
+  /** No more multi_view() will ask for keyframe `id` as a place. One that is not kept: nothing. */
+  void (*release_place)(unisim_predictor* predictor, int32_t id);
 };
 
 #ifdef __cplusplus

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "drivers/common/copy_out.hpp"
+#include "drivers/common/has_places.hpp"
 #include "drivers/common/owned.hpp"
 #include "drivers/geometric/geometric.h"
 #include "drivers/library/pipeline.h"
@@ -97,8 +98,9 @@ Preparation unisim_pipeline::prepare() {
   options.keyframes.stride = config.stride;
   options.patience_s = config.patience_ms / 1000.0;
   if (config.session == nullptr) {
-    session.max_keyframes =
-        unisim::pipeline::keyframe_capacity(session, -1, options.keyframes, session.max_keyframes);
+    const bool places = unisim::drivers::has_places(*predictor);
+    session.max_keyframes = unisim::pipeline::keyframe_capacity(
+        session, -1, options.keyframes, session.max_keyframes, places ? options.loops.places : 0);
   }
   run = std::make_unique<Pipeline>(options, source.get(), predictor.get(), session,
                                    std::vector<Listener*>{this}, &stop);

@@ -13,8 +13,8 @@ constexpr size_t kMostRevisions = 64;
 
 }  // namespace
 
-BackLane::BackLane(unisim_predictor* predictor, int32_t max_views)
-    : predictor_(predictor), max_views_(max_views), thread_([this] { loop(); }) {}
+BackLane::BackLane(unisim_predictor* predictor, int32_t max_views, LoopCloser* loops)
+    : predictor_(predictor), max_views_(max_views), loops_(loops), thread_([this] { loop(); }) {}
 
 BackLane::~BackLane() {
   {
@@ -25,12 +25,13 @@ BackLane::~BackLane() {
   thread_.join();
 }
 
-void BackLane::ask(const unisim_request* window, bool wide) {
+void BackLane::ask(const unisim_request* window, bool wide, bool loops) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     wants_window_ = window != nullptr;
     if (wants_window_) request_ = *window;
     wants_wide_ = wide;
+    wants_loops_ = loops;
     asked_ = true;
   }
   busy_ = true;
@@ -66,10 +67,12 @@ void BackLane::turn() {
   answer_.window_status = answer_.wide_status = UNISIM_PREDICTION_PENDING;
   answer_.revision_count = 0;
   answer_.failure.clear();
+  answer_.loop_ms = 0.0;
   try {
     if (wants_window_) predict_window();
     if (answer_.failure.empty()) copy_revisions();
     if (answer_.failure.empty()) take_wide_window();
+    if (answer_.failure.empty() && wants_loops_) search_loops();
   } catch (const std::exception& error) {
     answer_.failure = error.what();
   }
@@ -117,6 +120,14 @@ void BackLane::take_wide_window() {
   if (answer_.wide_status == UNISIM_PREDICTION_FAILED) {
     answer_.failure = predictor_->window_message(predictor_);
   }
+}
+
+void BackLane::search_loops() {
+  const auto start = std::chrono::steady_clock::now();
+  loops_->search();
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+  answer_.loop_ms = spent.count();
+  answer_.failure = loops_->failure();
 }
 
 }  // namespace unisim::pipeline

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "drivers/pipeline/loop_closer.hpp"
 #include "drivers/predictor.h"
 #include "unisim/unisim.h"
 
@@ -35,6 +36,8 @@ struct BackAnswer {
   int wide_status = UNISIM_PREDICTION_PENDING;
   unisim_window_prediction wide{};
 
+  double loop_ms = 0.0;  ///< of the search for loops; what it found is with the LoopCloser
+
   std::string failure;  ///< the predictor is of no more use: why
 };
 
@@ -44,14 +47,19 @@ class BackLane {
  public:
   /// @param predictor with concurrent_windows; borrowed
   /// @param max_views of a wide window
-  BackLane(unisim_predictor* predictor, int32_t max_views);
+  /// @param loops searches in a turn; NULL: never. Borrowed, and the lane's until a turn is over
+  BackLane(unisim_predictor* predictor, int32_t max_views, LoopCloser* loops);
   /// Waits for the turn in progress.
   ~BackLane();
   BackLane(const BackLane&) = delete;
   BackLane& operator=(const BackLane&) = delete;
 
-  /// Begins a turn. @param window NULL: none is wanted @param wide a wide window, if there is one
-  void ask(const unisim_request* window, bool wide);
+  /// Begins a turn.
+  /// @param window NULL: none is wanted
+  /// @param wide   a wide window, if there is one
+  /// @param loops  what LoopCloser::begin() handed over; not in a turn with a window, whose answer
+  ///               the predictor would write over
+  void ask(const unisim_request* window, bool wide, bool loops);
   /// Between ask() and done().
   bool busy() const { return busy_; }
   /// The turn is over: wait() returns at once.
@@ -66,12 +74,15 @@ class BackLane {
   void predict_window();
   void copy_revisions();
   void take_wide_window();
+  void search_loops();
 
   unisim_predictor* predictor_;
   int32_t max_views_;
+  LoopCloser* loops_;
   bool busy_ = false;  // of the caller's thread
   bool wants_window_ = false;
   bool wants_wide_ = false;
+  bool wants_loops_ = false;
   unisim_request request_{};
   BackAnswer answer_;
   bool asked_ = false;  // the turn is the lane's

@@ -52,7 +52,8 @@ struct StageTimes {
   LatencyHistogram two_view;     ///< predictor answers one pair
   LatencyHistogram multi_view;   ///< predictor answers one window
   LatencyHistogram depth_ratio;  ///< session takes a pair or a window: mostly its depth ratios
-  LatencyHistogram descriptor;   ///< global descriptors; none while loops are not closed
+  LatencyHistogram descriptor;   ///< predictor describes one keyframe; none where it closes loops
+  LatencyHistogram loop;         ///< one search for loops: predictions of old keyframes
   LatencyHistogram graph;        ///< session takes a keyframe, a revision or a refusal
   LatencyHistogram read;         ///< session says what it wants, where it stands, a pose
   LatencyHistogram optimize;     ///< one unisim_optimize()

@@ -8,8 +8,9 @@ namespace unisim::pipeline {
 
 MapBuilder::MapBuilder(const Parts& parts, size_t max_submaps)
     : parts_(parts), tokens_(max_submaps, {-1, -1}), wide_windows_(parts.session) {
+  make_loops();
   if (parts.predictor->concurrent_windows == 0) return;
-  lane_ = std::make_unique<BackLane>(parts.predictor, parts.window_size);
+  lane_ = std::make_unique<BackLane>(parts.predictor, parts.window_size, loops_.get());
   report_.beside = true;
   report_.lag = std::clamp(parts.window_step / 2, 1, UNISIM_WINDOW_LAG / 2);
 }
@@ -24,9 +25,14 @@ Step MapBuilder::add_keyframe(const unisim_frame& frame, int32_t* id) {
   const unisim_status status = parts_.session->add_keyframe(frame.timestamp_ns, id);
   if (status != UNISIM_OK) return session_failed("unisim_add_keyframe", status);
   newest_ = *id;
-  const ScopedLatency timer(parts_.times->keyframe);
-  const int answer = parts_.predictor->keyframe(parts_.predictor, &frame, *id);
-  return answer == UNISIM_PREDICTION_FAILED ? Step::kPredictorFailed : Step::kOk;
+  {
+    const ScopedLatency timer(parts_.times->keyframe);
+    const int answer = parts_.predictor->keyframe(parts_.predictor, &frame, *id);
+    if (answer == UNISIM_PREDICTION_FAILED) return Step::kPredictorFailed;
+  }
+  if (loops_ == nullptr) return Step::kOk;
+  const ScopedLatency timer(parts_.times->descriptor);
+  return loops_->describe(*id, parts_.messages) ? Step::kOk : Step::kPredictorFailed;
 }
 
 bool MapBuilder::next_request(uint32_t kind, unisim_request* request) {
@@ -237,6 +243,7 @@ Step MapBuilder::close() {
   if (step == Step::kOk) step = serve_wide_windows();
   if (step != Step::kOk) return step;
   if (parts_.session->close_window() == UNISIM_OK) step = serve_windows();
+  if (step == Step::kOk) step = serve_loops();
   constexpr int kFinalCalls = 5;
   return step == Step::kOk ? optimize(kFinalCalls) : step;
 }

@@ -10,6 +10,7 @@
 #include "drivers/pipeline/back_lane.hpp"
 #include "drivers/pipeline/latency_histogram.hpp"
 #include "drivers/pipeline/listener.hpp"
+#include "drivers/pipeline/loop_closer.hpp"
 #include "drivers/pipeline/messages.hpp"
 #include "drivers/pipeline/session_client.hpp"
 #include "drivers/pipeline/wide_windows.hpp"
@@ -49,6 +50,7 @@ class MapBuilder {
     int32_t window_size;  ///< views a submap can have
     int32_t window_step;  ///< keyframes from one window to the next
     bool realtime;        ///< answers of the lane are taken when they are there
+    LoopConfig loops;     ///< for a predictor with places
   };
 
   /// Windows that may wait for the lane in a realtime run; for a newer one the oldest is dropped.
@@ -63,8 +65,8 @@ class MapBuilder {
   /// Serves pair requests until there is none or one is not known yet.
   Step serve_pairs();
 
-  /// Windows, what was measured anew and wide windows; the graph is optimised when one came in.
-  /// From the predictor at once, or, where it allows that, from the lane beside the tracking.
+  /// Windows, what was measured anew, wide windows and loops; the graph is optimised when one came
+  /// in. From the predictor at once, or, where it allows that, from the lane beside the tracking.
   Step serve_back();
 
   /// Ends the lane: waits for the answer in work and takes it where the run goes on. Afterwards
@@ -83,6 +85,9 @@ class MapBuilder {
   int32_t last_settled() const { return last_settled_; }
 
   const LaneReport& lane_report() const { return report_; }
+
+  /// What the predictor says of the run, and of loops what is known here.
+  void info(unisim_predictor_info* out) const;
 
   /// Why a step said kPredictorFailed.
   std::string failure() const { return failure_.empty() ? predictor_message() : failure_; }
@@ -105,6 +110,10 @@ class MapBuilder {
                    bool* pending);
   bool wants_wide_window() const;
   Step take_wide_window(const unisim_window_prediction& window, bool* taken);
+  void make_loops();
+  bool begin_loops();
+  Step serve_loops();
+  Step take_loop();
   void begin_turn();
   bool turn_is_due();
   Step end_turn();
@@ -124,6 +133,7 @@ class MapBuilder {
   std::vector<TokenOfSubmap> tokens_;  // a ring of the newest
   size_t next_token_ = 0;
   WideWindows wide_windows_;
+  std::unique_ptr<LoopCloser> loops_;  // NULL: none are looked for
   int32_t last_settled_ = 0;
   int32_t newest_ = -1;  // keyframe
   std::unique_ptr<BackLane> lane_;

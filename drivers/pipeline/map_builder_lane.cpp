@@ -19,6 +19,7 @@ Step MapBuilder::serve_back() {
     Step step = serve_windows();
     if (step == Step::kOk) step = serve_revisions();
     if (step == Step::kOk) step = serve_wide_windows();
+    if (step == Step::kOk) step = serve_loops();
     return step;
   }
   if (lane_->busy() && !turn_is_due()) return Step::kOk;
@@ -40,13 +41,15 @@ bool MapBuilder::turn_is_due() {
 void MapBuilder::begin_turn() {
   const bool wanted = drop_oldest_windows(&asked_);
   const bool wide = wants_wide_window();
-  if (!wanted && !wide && parts_.predictor->next_revision == nullptr) return;
+  // A window is taken first: what a search finds would be written over it.
+  const bool loops = !wanted && begin_loops();
+  if (!wanted && !wide && !loops && parts_.predictor->next_revision == nullptr) return;
   if (wanted)
     ++report_.asked;
   else
     asked_.count = 0;
   asked_at_ = newest_;
-  lane_->ask(wanted ? &asked_ : nullptr, wide);
+  lane_->ask(wanted ? &asked_ : nullptr, wide, loops);
 }
 
 /// The window to ask for next. In a realtime run a predictor that is behind does not catch up by
@@ -102,7 +105,9 @@ Step MapBuilder::take_turn(const BackAnswer& answer) {
   if (step == Step::kOk && answer.wide_status == UNISIM_PREDICTION_OK) {
     step = take_wide_window(answer.wide, &wide_taken);
   }
-  return step == Step::kOk && wide_taken ? optimize(1) : step;
+  if (step == Step::kOk && wide_taken) step = optimize(1);
+  if (answer.loop_ms > 0.0) parts_.times->loop.add_ms(answer.loop_ms);
+  return step == Step::kOk ? take_loop() : step;
 }
 
 Step MapBuilder::leave_lane(bool goes_on) {

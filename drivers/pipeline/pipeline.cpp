@@ -3,6 +3,7 @@
 #include "drivers/pipeline/pipeline.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -67,14 +68,15 @@ class Pipeline::Impl {
 
 namespace {
 
-/// Tables of programs built against an older header are refused, none is older than this one yet.
+/// Tables of programs built against an older header than the first with places are refused.
 Preparation check_tables(const unisim_source& source, const unisim_predictor& predictor) {
   const auto refuse = [](const std::string& why) {
     return Preparation{Preparation::Answer::kBadConfiguration, why};
   };
   const char* const kSizes = ": struct_size is not one this library knows; set it to sizeof";
   if (source.struct_size < sizeof source) return refuse(std::string("source") + kSizes);
-  if (predictor.struct_size < sizeof predictor) return refuse(std::string("predictor") + kSizes);
+  if (predictor.struct_size < offsetof(unisim_predictor, place_descriptor))
+    return refuse(std::string("predictor") + kSizes);
   if (predictor.concurrent_windows != 0 && predictor.window_message == nullptr) {
     return refuse(std::string(predictor.name) +
                   " predictor: concurrent_windows needs a window_message()");
@@ -93,8 +95,9 @@ Preparation Pipeline::Impl::prepare() {
   const int32_t step = config_.window_size - config_.window_overlap;
   const int32_t windows = config_.max_keyframes / step + 2;
   const MapBuilder::Parts parts = {
-      &session_,   predictor_,          &result_.times, &messages_,
-      &listeners_, config_.window_size, step,           options_.realtime || options_.live};
+      &session_,     predictor_,          &result_.times, &messages_,
+      &listeners_,   config_.window_size, step,           options_.realtime || options_.live,
+      options_.loops};
   builder_ = std::make_unique<MapBuilder>(parts, static_cast<size_t>(windows));
   return preparation;
 }
@@ -114,7 +117,7 @@ const Result& Pipeline::Impl::run() {
   finish();
   result_.lanes = builder_->lane_report();
   messages_.tell_counts();
-  predictor_->info(predictor_, &result_.predictor);
+  builder_->info(&result_.predictor);
   if (heap_watch_.count != nullptr) result_.heap_calls = heap_watch_.calls() - heap_calls;
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   result_.wall_s = wall.count();
@@ -312,12 +315,12 @@ const Result& Pipeline::result() const { return impl_->result(); }
 unisim_session* Pipeline::session() const { return impl_->session(); }
 
 int32_t keyframe_capacity(const unisim_config& session, int64_t frames,
-                          const KeyframeConfig& keyframes, int32_t when_unknown) {
+                          const KeyframeConfig& keyframes, int32_t when_unknown, int32_t places) {
   if (session.window_submaps > 0) {
     // As unisim.h asks for. Wide windows and revisions reach back as far as a predictor remembers.
     const int32_t least = (session.window_submaps + 9) * session.window_size;
     constexpr int32_t kRemembered = 320;
-    return std::max(least, kRemembered);
+    return std::max({least, kRemembered, places});
   }
   if (frames < 0) return when_unknown;
   const int64_t gap = std::max(keyframes.stride > 0 ? keyframes.stride : keyframes.min_gap, 1);

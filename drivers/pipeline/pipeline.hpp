@@ -22,6 +22,7 @@ namespace unisim::pipeline {
 
 struct Options {
   KeyframeConfig keyframes;
+  LoopConfig loops;
   int32_t queue_frames = 8;    ///< frames decoded ahead
   bool every_frame = false;    ///< also pose the frames between keyframes
   bool realtime = false;       ///< keep to the recorded times, drop late frames
@@ -93,7 +94,9 @@ class Pipeline {
 /// @param session      window_submaps, window_size
 /// @param frames       frames of the sequence, < 0: not known
 /// @param when_unknown returned for a full batch then
+/// @param places       keyframes that loops reach back to; 0: none are looked for by the pipeline
 int32_t keyframe_capacity(const unisim_config& session, int64_t frames,
-                          const KeyframeConfig& keyframes, int32_t when_unknown);
+                          const KeyframeConfig& keyframes, int32_t when_unknown,
+                          int32_t places = 0);
 
 }  // namespace unisim::pipeline

@@ -209,6 +209,24 @@ Decoded decode_revision(std::size_t size, DecodedArrays* arrays, unisim_window_r
   return Decoded::kOk;
 }
 
+void encode_place(const unisim_place_descriptor& place, RecordBytes* out) {
+  out->put(PlaceData{place.dimension, place.image_width, place.image_height, 0});
+  out->put_array(place.values, static_cast<std::size_t>(place.dimension));
+}
+
+Decoded decode_place(std::size_t size, DecodedArrays* arrays, unisim_place_descriptor* out,
+                     std::string* problem) {
+  PlaceData place{};
+  if (size >= sizeof place) std::memcpy(&place, arrays->data.data(), sizeof place);
+  if (place.dimension < 1 || static_cast<std::size_t>(place.dimension) > size - sizeof place) {
+    *problem = "descriptor of impossible size";
+    return Decoded::kMalformed;
+  }
+  *out = {reinterpret_cast<const std::int8_t*>(arrays->data.data()) + sizeof place, place.dimension,
+          place.image_width, place.image_height, 0};
+  return Decoded::kOk;
+}
+
 Decoded decode_pose(std::size_t size, const AlignedBytes& data, unisim_sim3* out) {
   if (size < sizeof *out) return Decoded::kMalformed;
   std::memcpy(out, data.data(), sizeof *out);

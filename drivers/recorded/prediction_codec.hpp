@@ -15,6 +15,7 @@ namespace unisim::recorded {
 
 void encode_pair(const unisim_pair_prediction& pair, RecordBytes* out);
 void encode_window(const unisim_window_prediction& window, RecordBytes* out);
+void encode_place(const unisim_place_descriptor& place, RecordBytes* out);
 void encode_revision(const unisim_window_revision& revision, RecordBytes* out);
 
 /// What a decoded prediction points into; kept by the caller as long as the prediction.
@@ -38,6 +39,10 @@ Decoded decode_window(std::size_t size, DecodedArrays* arrays, unisim_window_pre
                       std::string* problem);
 Decoded decode_revision(std::size_t size, DecodedArrays* arrays, unisim_window_revision* out,
                         std::string* problem);
+
+/// No number of a place can be wrong by itself.
+Decoded decode_place(std::size_t size, DecodedArrays* arrays, unisim_place_descriptor* out,
+                     std::string* problem);
 
 /// A single pose of `size` bytes.
 Decoded decode_pose(std::size_t size, const AlignedBytes& data, unisim_sim3* out);

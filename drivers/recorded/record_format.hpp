@@ -30,7 +30,8 @@ enum class Kind : std::uint32_t {
   kFramePose = 6,
   kInfo = 7,
   kEnd = 8,
-  kWideWindow = 9
+  kWideWindow = 9,
+  kPlace = 10
 };
 
 /// Start of the file; three texts (u32 length, bytes: creator, sequence, predictor), zeros to a
@@ -103,6 +104,13 @@ struct WideWindowKey {
   Moment moment;
 };
 
+/// What a keyframe looks like.
+struct PlaceKey {
+  Moment moment;
+  std::int32_t status;
+  std::int32_t id;
+};
+
 struct FramePoseKey {
   Moment moment;
   std::int32_t status;
@@ -154,6 +162,14 @@ struct RevisionData {
   std::int32_t reserved;
 };
 
+/// Data of a place, before its `dimension` int8 numbers.
+struct PlaceData {
+  std::int32_t dimension;
+  std::int32_t image_width;
+  std::int32_t image_height;
+  std::int32_t reserved;
+};
+
 /// Before height*width float32 depths and, where there is confidence, as many float32 of it.
 struct DepthHead {
   std::int32_t width;
@@ -168,6 +184,7 @@ static_assert(sizeof(PairKey) == 32 && sizeof(WindowKey) == 24 && sizeof(Revisio
 static_assert(sizeof(WideWindowKey) == 16 && sizeof(FramePoseKey) == 24 && sizeof(InfoKey) == 48 &&
               sizeof(EndKey) == 8);
 static_assert(sizeof(unisim_sim3) == 64 && sizeof(PairData) == 80 && sizeof(WindowData) == 32);
+static_assert(sizeof(PlaceKey) == 24 && sizeof(PlaceData) == 16);
 static_assert(sizeof(RevisionData) == 16 && sizeof(DepthHead) == 16);
 
 }  // namespace unisim::recorded

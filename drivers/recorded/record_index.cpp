@@ -41,6 +41,8 @@ Question frame_pose_question(std::int64_t frame) {
   return {static_cast<std::int64_t>(Kind::kFramePose), frame};
 }
 
+Question place_question(std::int32_t id) { return {static_cast<std::int64_t>(Kind::kPlace), id}; }
+
 bool RecordIndex::build(RecordReader* reader) {
   RecordRef record;
   AlignedBytes key;
@@ -71,6 +73,8 @@ const char* RecordIndex::add(const RecordRef& record, const AlignedBytes& key) {
       return add_wide_window(record, key);
     case Kind::kFramePose:
       return add_frame_pose(record, key);
+    case Kind::kPlace:
+      return add_place(record, key);
     case Kind::kInfo:
       return set_info(record, key);
     case Kind::kEnd:
@@ -123,10 +127,12 @@ const char* RecordIndex::add_window(const RecordRef& record, const AlignedBytes&
   const std::size_t id_bytes = static_cast<std::size_t>(window.count) * sizeof ids[0];
   if (record.head.key_bytes < sizeof window + id_bytes) return kShort;
   std::memcpy(ids, key.data() + sizeof window, id_bytes);
-  if (window_size_ == 0) {
+  // Others were asked for to close a loop.
+  const bool neighbours = ids[window.count - 1] - ids[0] == window.count - 1;
+  if (neighbours && window_size_ == 0) {
     window_size_ = window.count;
     window_first_ = ids[0];
-  } else if (window_step_ == 0) {
+  } else if (neighbours && window_step_ == 0) {
     window_step_ = ids[0] - window_first_;
   }
   answers_[window_question(ids, window.count)].push_back(
@@ -145,6 +151,16 @@ const char* RecordIndex::add_wide_window(const RecordRef& record, const AlignedB
   WideWindowKey window{};
   if (!read_key(record, key, &window)) return kShort;
   wide_windows_.push_back({window.moment, record});
+  return nullptr;
+}
+
+const char* RecordIndex::add_place(const RecordRef& record, const AlignedBytes& key) {
+  PlaceKey place{};
+  if (!read_key(record, key, &place)) return kShort;
+  if (!answer_status(place.status)) return kStatus;
+  answers_[place_question(place.id)].push_back(
+      {place.moment, place.status, place.id, false, record});
+  has_places_ = true;
   return nullptr;
 }
 

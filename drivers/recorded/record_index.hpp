@@ -41,6 +41,7 @@ using Question = std::vector<std::int64_t>;
 Question pair_question(std::int32_t i, std::int32_t j);
 Question window_question(const std::int32_t* ids, std::int32_t count);
 Question frame_pose_question(std::int64_t frame);
+Question place_question(std::int32_t id);
 
 struct RecordedRevision {
   Moment moment;
@@ -69,7 +70,8 @@ class RecordIndex {
   /// Answers to a question; NULL when the file does not know it.
   RecordedAnswers* find_answers(const Question& question);
 
-  /// Keyframes of the first window, and from its first keyframe to that of the next; 0: not known.
+  /// Keyframes of the first window of neighbours, and from its first keyframe to that of the next;
+  /// 0: not known.
   std::int32_t window_size() const { return window_size_; }
   std::int32_t window_step() const { return window_step_; }
 
@@ -77,6 +79,7 @@ class RecordIndex {
   const std::vector<RecordedWideWindow>& wide_windows() const { return wide_windows_; }
   const unisim_predictor_info& info() const { return info_; }
   bool has_frame_poses() const { return has_frame_poses_; }
+  bool has_places() const { return has_places_; }
   bool complete() const { return complete_; }
   std::int64_t record_count() const { return record_count_; }
   std::size_t bytes() const;
@@ -90,6 +93,7 @@ class RecordIndex {
   const char* add_window(const RecordRef& record, const AlignedBytes& key);
   const char* add_revision(const RecordRef& record, const AlignedBytes& key);
   const char* add_wide_window(const RecordRef& record, const AlignedBytes& key);
+  const char* add_place(const RecordRef& record, const AlignedBytes& key);
   const char* add_frame_pose(const RecordRef& record, const AlignedBytes& key);
   const char* set_info(const RecordRef& record, const AlignedBytes& key);
   const char* set_end(const RecordRef& record, const AlignedBytes& key);
@@ -104,6 +108,7 @@ class RecordIndex {
   std::int32_t window_first_ = 0;  // its first keyframe
   std::int32_t window_step_ = 0;
   bool has_frame_poses_ = false;
+  bool has_places_ = false;
   bool complete_ = false;
   std::int64_t record_count_ = 0;
 };

@@ -38,6 +38,7 @@ struct Recorded : unisim_predictor {
   DecodedArrays window;
   DecodedArrays revision;
   DecodedArrays wide;
+  DecodedArrays place;
   AlignedBytes scratch;
 };
 
@@ -292,6 +293,17 @@ int frame_pose(unisim_predictor* predictor, unisim_frame_pose* out) {
   });
 }
 
+int place_descriptor(unisim_predictor* predictor, int32_t id, unisim_place_descriptor* out) {
+  Recorded& recorded = self(predictor);
+  return guarded(recorded, recorded.front, [&] {
+    const std::string what = "place " + std::to_string(id);
+    return answer(recorded, recorded.front, place_question(id), what, &recorded.place,
+                  [&](std::size_t size, std::string* problem) {
+                    return decode_place(size, &recorded.place, out, problem);
+                  });
+  });
+}
+
 int finish(unisim_predictor* predictor) {
   Recorded& recorded = self(predictor);
   recorded.front.now.finished = recorded.back.now.finished = 1;
@@ -303,7 +315,7 @@ void info(unisim_predictor* predictor, unisim_predictor_info* out) {
   *out = recorded.index.info();
   std::size_t bytes = sizeof recorded + recorded.index.bytes() + recorded.scratch.capacity_bytes();
   for (const DecodedArrays* arrays :
-       {&recorded.pair, &recorded.window, &recorded.revision, &recorded.wide}) {
+       {&recorded.pair, &recorded.window, &recorded.revision, &recorded.wide, &recorded.place}) {
     bytes += arrays->data.capacity_bytes();
   }
   out->state_bytes = static_cast<std::int64_t>(bytes);
@@ -337,6 +349,10 @@ void fill_table(Recorded* recorded) {
   recorded->info = info;
   recorded->message = message;
   recorded->window_message = window_message;
+  if (recorded->index.has_places()) {
+    recorded->place_descriptor = place_descriptor;
+    recorded->release_place = [](unisim_predictor*, int32_t) {};
+  }
   recorded->destroy = destroy;
 }
 

@@ -8,6 +8,7 @@
 #include <new>
 #include <string>
 
+#include "drivers/common/has_places.hpp"
 #include "drivers/recorded/prediction_codec.hpp"
 #include "drivers/recorded/record_format.hpp"
 #include "drivers/recorded/record_writer.hpp"
@@ -163,6 +164,21 @@ int frame_pose(unisim_predictor* predictor, unisim_frame_pose* out) {
   return status;
 }
 
+int place_descriptor(unisim_predictor* predictor, int32_t id, unisim_place_descriptor* out) {
+  Recorder& recorder = self(predictor);
+  const int status = recorder.inner->place_descriptor(recorder.inner, id, out);
+  store(
+      recorder, Kind::kPlace, status,
+      [&](RecordBytes& bytes) { bytes.put(PlaceKey{recorder.moment, status, id}); },
+      [&](RecordBytes& bytes) { encode_place(*out, &bytes); });
+  return status;
+}
+
+void release_place(unisim_predictor* predictor, int32_t id) {
+  Recorder& recorder = self(predictor);
+  recorder.inner->release_place(recorder.inner, id);
+}
+
 int32_t features(unisim_predictor* predictor, const unisim_feature** out) {
   Recorder& recorder = self(predictor);
   return recorder.inner->features(recorder.inner, out);
@@ -234,6 +250,9 @@ void fill_table(Recorder* recorder, unisim_predictor* inner) {
   recorder->window_message = inner->window_message != nullptr ? window_message : nullptr;
   recorder->destroy = destroy;
   recorder->features = inner->features != nullptr ? features : nullptr;
+  if (!drivers::has_places(*inner)) return;
+  recorder->place_descriptor = place_descriptor;
+  recorder->release_place = release_place;
 }
 
 /// The predictor that recorders, one in another, hand their calls on to.

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "drivers/common/has_places.hpp"
 #include "drivers/recorded/recorded.h"
 #include "tools/common/failure.hpp"
 #include "tools/common/heap_counter.hpp"
@@ -234,13 +235,15 @@ class Results {
 };
 
 unisim_config session_config(const Options& options, const Settings& settings,
-                             unisim_source* source) {
+                             unisim_source* source, const unisim_predictor& predictor) {
   unisim_config config = settings.session;
   if (options.settings.max_keyframes_given) return config;
-  config.max_keyframes = std::max(
-      pipeline::keyframe_capacity(config, source->frame_count(source),
-                                  options.settings.pipeline.keyframes, kUnknownLengthKeyframes),
-      least_keyframes(config));
+  const pipeline::Options& how = options.settings.pipeline;
+  const int32_t places = drivers::has_places(predictor) ? how.loops.places : 0;
+  config.max_keyframes =
+      std::max(pipeline::keyframe_capacity(config, source->frame_count(source), how.keyframes,
+                                           kUnknownLengthKeyframes, places),
+               least_keyframes(config));
   return config;
 }
 
@@ -263,7 +266,7 @@ int run(const Options& options, const Surroundings& around, const std::atomic<bo
   const std::string format = input.source->format;
   Settings settings = options.settings;
   const PredictorPtr predictor = open_predictor(options, &settings, &input.notes);
-  const unisim_config config = session_config(options, settings, input.source.get());
+  const unisim_config config = session_config(options, settings, input.source.get(), *predictor);
   ProgressLine progress(progress_style(options), around.line);
   for (const std::string& note : input.notes) {
     if (!note.empty()) progress.on_message(note);

@@ -67,7 +67,7 @@ void RunOptions::add_method_options(CLI::App* app) {
                 "submaps and a skeleton of the older ones, in the same memory for ever)");
   app->add_option("--config", config_, "TOML file, see --print-config");
   app->add_flag("--print-config", options_->print_config, "print the effective configuration, end");
-  app->add_flag("--no-loop", no_loop_, "close no loops (geometric predictor)");
+  app->add_flag("--no-loop", no_loop_, "close no loops");
   app->add_option("--disable", disabled_,
                   "leave a factor out: e2v anchor bridge tie scale, "
                   "or a group: v2s s2s")
@@ -134,7 +134,10 @@ void RunOptions::apply() {
   if (every_frame_) settings->pipeline.every_frame = true;
   if (threads_) settings->onnx.threads = *threads_;
   if (memory_mb_) settings->onnx.memory_mb = *memory_mb_;
-  if (no_loop_) settings->geometric.loop_tries = 0;
+  if (no_loop_) {
+    settings->geometric.loop_tries = 0;
+    settings->pipeline.loops.places = 0;
+  }
   for (const std::string& name : disabled_) {
     settings->session.disabled_factors |= kFactors.at(name);
   }

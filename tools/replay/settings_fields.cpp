@@ -58,6 +58,14 @@ void add_pipeline_fields(pipeline::Options* o, std::vector<Field>* fields) {
                   {s, "realtime", &o->realtime, Range::whole(0, 1)}});
 }
 
+void add_loop_fields(pipeline::LoopConfig* c, std::vector<Field>* fields) {
+  const char* s = "loops";
+  fields->insert(fields->end(), {{s, "places", &c->places, Range::whole(0, 65536)},
+                                 {s, "gap", &c->gap, Range::whole(10, 100000)},
+                                 {s, "tries", &c->tries, Range::whole(1, 50)},
+                                 {s, "likeness", &c->likeness, Range::number(0.0, 1.0)}});
+}
+
 void add_geometric_fields(unisim_geometric_config* c, std::vector<Field>* fields) {
   const char* s = "geometric";
   fields->insert(
@@ -96,6 +104,7 @@ std::vector<Field> all_fields(Settings* settings) {
   std::vector<Field> fields;
   add_session_fields(&settings->session, &fields);
   add_pipeline_fields(&settings->pipeline, &fields);
+  add_loop_fields(&settings->pipeline.loops, &fields);
   add_geometric_fields(&settings->geometric, &fields);
   add_onnx_fields(&settings->onnx, &fields);
   return fields;
