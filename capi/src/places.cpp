@@ -2,6 +2,7 @@
 // The index of places: argument checks and calls into core.
 #include "unisim/places.h"
 
+#include "capi/src/read_write.hpp"
 #include "capi/src/struct_size.hpp"
 #include "core/map/place_index.hpp"
 
@@ -10,6 +11,7 @@ using unisim::PlaceIndex;
 using unisim::PlaceIndexConfig;
 using unisim::PlaceMatch;
 using unisim::Status;
+using unisim::to_c;
 
 static_assert(sizeof(unisim_places_match) == sizeof(PlaceMatch) &&
                   offsetof(unisim_places_match, score) == offsetof(PlaceMatch, score),
@@ -22,8 +24,6 @@ constexpr int32_t kMostMatches = PlaceIndex::kMaxCapacity;
 PlaceIndex* core(unisim_places* places) { return reinterpret_cast<PlaceIndex*>(places); }
 
 bool is_live(unisim_places* places) { return places != nullptr && core(places)->live(); }
-
-unisim_status to_c(Status status) { return static_cast<unisim_status>(status); }
 
 unisim_places_config defaults() {
   const PlaceIndexConfig ours;

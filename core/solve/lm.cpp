@@ -12,7 +12,6 @@ constexpr double kLowestLambda = 1e-12;
 constexpr double kHighestLambda = 1e12;
 // An order that was renewed in parts is given up when it fills this much more than a whole one.
 constexpr double kWornOrder = 1.25;
-constexpr int kLogScale = 6;
 
 bool valid_options(const LmOptions& o) {
   return o.max_iterations >= 0 && o.initial_lambda > 0.0 && o.initial_lambda <= kHighestLambda &&

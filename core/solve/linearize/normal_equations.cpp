@@ -10,8 +10,6 @@
 namespace unisim {
 namespace {
 
-constexpr int kLogScale = 6;
-
 QuadShape shape_of(const Edge& edge) {
   if (edge.kind == FactorKind::kChain) return QuadShape::kChain;
   if (edge.kind == FactorKind::kRigid) return QuadShape::kRigid;

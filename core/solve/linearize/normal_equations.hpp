@@ -15,6 +15,8 @@ namespace unisim {
 
 class QuadCollector;
 
+constexpr int kLogScale = 6;  ///< where a tangent (core/lie/sim3.hpp) holds the log-scale
+
 /// Puts H (IRLS weights included) and g together from the edges of a graph.
 class NormalEquations {
  public:
