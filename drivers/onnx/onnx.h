@@ -43,6 +43,8 @@ typedef struct unisim_onnx_config {
                           of tools/bootstrap.sh, the system's (NULL) */
   const char* model_encoder; /**< encoder of split models; NULL: X.encoder.onnx beside X.onnx (NULL)
                               */
+  const char* model_descriptor; /**< file (kind descriptor) that tells places from each other, for
+                                     loops; NULL: VLAD of binary features (NULL) */
 } unisim_onnx_config;
 
 /** Defaults for every field.

@@ -35,6 +35,7 @@ PredictorPtr open_onnx(const Options& options, std::vector<std::string>* notes) 
   config.model_pair = options.model_pair.c_str();
   config.model_window = options.model_window.c_str();
   config.model_encoder = options.model_encoder.c_str();
+  config.model_descriptor = options.model_descriptor.c_str();
   config.provider = options.provider.c_str();
   config.library = options.onnx_runtime.c_str();
   char message[kLine] = "";

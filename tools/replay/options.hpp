@@ -21,10 +21,11 @@ struct Options {
   std::string predictions;  ///< file of --predictor recorded
   std::string record;       ///< file to write, "" for none
   std::string ground_truth;
-  std::string mask;           ///< image that hides what goes with the camera, "" for none
-  std::string model_pair;     ///< files of --predictor onnx
-  std::string model_window;   ///< the same where one model serves both
-  std::string model_encoder;  ///< "": beside the models that need one
+  std::string mask;              ///< image that hides what goes with the camera, "" for none
+  std::string model_pair;        ///< files of --predictor onnx
+  std::string model_window;      ///< the same where one model serves both
+  std::string model_encoder;     ///< "": beside the models that need one
+  std::string model_descriptor;  ///< "": places are told apart without a network
   std::string provider = "cpu";
   std::string onnx_runtime;        ///< library to open, "" to search
   std::optional<std::string> lcm;  ///< URL to publish on, "" for the usual one

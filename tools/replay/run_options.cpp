@@ -83,6 +83,9 @@ void RunOptions::add_model_options(CLI::App* app) {
   app->add_option("--model-encoder", options_->model_encoder,
                   "encoder of split models (default: X.encoder.onnx beside X.onnx)")
       ->group(group);
+  app->add_option("--model-descriptor", options_->model_descriptor,
+                  "ONNX file that tells places apart, for loops (default: without a network)")
+      ->group(group);
   app->add_option("--provider", options_->provider, "cpu, cuda, tensorrt or what the library has")
       ->capture_default_str()
       ->group(group);
@@ -166,8 +169,9 @@ void RunOptions::check() const {
   require(!onnx || (!options.model_pair.empty() && !options.model_window.empty()),
           "--predictor onnx needs --model FILE, or --model-2v FILE and --model-mv FILE");
   require(onnx || (options.model_pair.empty() && options.model_window.empty() &&
-                   options.model_encoder.empty()),
-          "--model, --model-2v, --model-mv and --model-encoder go with --predictor onnx");
+                   options.model_encoder.empty() && options.model_descriptor.empty()),
+          "--model, --model-2v, --model-mv, --model-encoder and --model-descriptor go with "
+          "--predictor onnx");
   require(options.lcm || (!options.lcm_images && options.lcm_points == 0),
           "--lcm-images and --lcm-points go with --lcm URL");
   check_together(options.settings);

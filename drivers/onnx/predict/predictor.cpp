@@ -5,11 +5,16 @@
 #include <new>
 #include <numeric>
 #include <string>
+#include <vector>
 
+#include "drivers/common/packed_copy.hpp"
 #include "drivers/onnx/config.hpp"
 #include "drivers/onnx/creation.hpp"
+#include "drivers/onnx/error.hpp"
 #include "drivers/onnx/model/models.hpp"
 #include "drivers/onnx/onnx.h"
+#include "drivers/onnx/predict/place_describer.hpp"
+#include "drivers/onnx/predict/place_images.hpp"
 #include "drivers/onnx/predict/refused_pairs.hpp"
 #include "drivers/onnx/predict/role.hpp"
 #include "drivers/onnx/predict/window_role.hpp"
@@ -35,7 +40,11 @@ struct OnnxPredictor {
   std::unique_ptr<Role> pair;
   std::unique_ptr<RefusedPairs> refused_pairs;
   std::unique_ptr<WindowRole> window;
-  unisim_image shape{};  // every image's size
+  std::unique_ptr<PlaceDescriber> describer;
+  PlaceImages places;
+  unisim_image shape{};         // every image's size
+  unisim_image newest{};        // keyframe, for place_descriptor()
+  std::vector<uint8_t> pixels;  // of it
   int64_t last_keyframe_frame = -1;
   int32_t keyframes = 0;
   int32_t encode_failures = 0;  // of keyframes, in a row
@@ -72,6 +81,7 @@ std::string size_text(const unisim_image& image) {
 /// What follows from the size of the images is made with the first one.
 void take_shape(OnnxPredictor* me, const unisim_image& image) {
   me->shape = image;
+  me->pixels.reserve(static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * 3);
   Models& models = me->models;
   models.window_views->set_image_size(image.width, image.height);
   if (models.pair_views != models.window_views) {
@@ -123,6 +133,7 @@ int keyframe(unisim_predictor* predictor, const unisim_frame* frame, int32_t id)
     }
     ++me->keyframes;
     me->last_keyframe_frame = frame->index;
+    me->newest = drivers::packed_copy(frame->image, &me->pixels);
     // What could not be encoded is told by the predictions that need it.
     Answer answer = me->models.window_views->add(id, frame->image);
     if (me->models.pair_views != me->models.window_views) {
@@ -191,14 +202,43 @@ int multi_view(unisim_predictor* predictor, const int32_t* ids, int32_t count,
   });
 }
 
+int place_descriptor(unisim_predictor* predictor, int32_t id, unisim_place_descriptor* out) {
+  return guarded(predictor, &OnnxPredictor::front, [&](OnnxPredictor* me) {
+    const int status = me->describer->describe(me->newest);
+    if (status != UNISIM_PREDICTION_OK) {
+      me->front.message = me->describer->message();
+      return status;
+    }
+    me->places.add(id, me->newest);
+    const std::vector<int8_t>& values = me->describer->values();
+    *out = {values.data(), static_cast<int32_t>(values.size()), me->newest.width, me->newest.height,
+            0};
+    return status;
+  });
+}
+
+void release_place(unisim_predictor* predictor, int32_t id) { self(predictor)->places.release(id); }
+
 void info(unisim_predictor* predictor, unisim_predictor_info* out) {
   const OnnxPredictor* me = self(predictor);
   *out = {};
   out->focal_px = me->back.focal_px > 0 ? me->back.focal_px : me->front.focal_px;
   out->initialised = out->focal_px > 0 ? 1 : 0;
-  out->state_bytes = me->models.bytes();
+  out->state_bytes = me->models.bytes() + me->places.bytes();
   if (me->pair == nullptr) return;
   out->state_bytes += me->pair->outputs().bytes() + me->window->outputs().bytes();
+}
+
+/// NULL: none was named. @throws OnnxError
+unisim_onnx_descriptor* open_descriptor(const unisim_onnx_config& config) {
+  const char* const path = config.model_descriptor;
+  if (path == nullptr || *path == '\0') return nullptr;
+  int32_t problem = 0;
+  char line[512] = "";
+  unisim_onnx_descriptor* const model =
+      unisim_onnx_descriptor_open(&config, path, &problem, line, sizeof line);
+  if (model == nullptr) throw OnnxError(problem, line);
+  return model;
 }
 
 const char* message(unisim_predictor* predictor) { return self(predictor)->front.message.c_str(); }
@@ -219,6 +259,8 @@ unisim_predictor* unisim_onnx_create(const unisim_onnx_config* config, int32_t* 
     auto made = std::make_unique<o::OnnxPredictor>();
     made->config = o::read_config(*config);
     made->models = o::load_models(made->config);
+    made->describer = std::make_unique<o::PlaceDescriber>(o::open_descriptor(*config));
+    made->models.window_views->set_places(&made->places);
     made->refused_pairs = std::make_unique<o::RefusedPairs>(made->models.window_views->capacity());
     unisim_predictor& table = made->table;
     table.struct_size = sizeof table;
@@ -233,6 +275,8 @@ unisim_predictor* unisim_onnx_create(const unisim_onnx_config* config, int32_t* 
     table.message = o::message;
     table.window_message = o::window_message;
     table.destroy = o::destroy;
+    table.place_descriptor = o::place_descriptor;
+    table.release_place = o::release_place;
     return &made.release()->table;
   });
 }

@@ -12,6 +12,7 @@
 #include "drivers/image.h"
 #include "drivers/onnx/image/preprocessor.hpp"
 #include "drivers/onnx/model/encoder.hpp"
+#include "drivers/onnx/predict/place_images.hpp"
 #include "drivers/onnx/predict/view_store.hpp"
 
 namespace unisim::onnx {
@@ -26,6 +27,9 @@ class Views {
   Views(const Contract& contract, std::shared_ptr<Encoder> encoder, int64_t view_floats,
         int32_t capacity);
 
+  /// Keyframes that have left the ring are looked for there.
+  void set_places(const PlaceImages* places) { places_ = places; }
+
   /// All images have this size; takes the memory that follows from it. Before the first add().
   void set_image_size(int32_t width, int32_t height);
 
@@ -34,7 +38,7 @@ class Views {
 
   /// @param[out] view the model's input
   /// @return "" or why there is none
-  std::string copy(int32_t id, float* view) const;
+  std::string copy(int32_t id, float* view);
 
   const Framing& framing() const { return preprocessor_->framing(); }
   const Encoder* encoder() const { return encoder_.get(); }
@@ -43,6 +47,8 @@ class Views {
   int64_t bytes() const;
 
  private:
+  Answer make(const unisim_image& image, float* view);
+  std::string restore(int32_t id, float* view);
   size_t place(int32_t id) const { return static_cast<size_t>(id % capacity_); }
 
   Contract contract_;
@@ -52,6 +58,8 @@ class Views {
   ViewStore store_;
   std::vector<std::string> problems_;  // by place in the ring, "" where there is a view
   std::optional<Preprocessor> preprocessor_;
+  const PlaceImages* places_ = nullptr;
+  std::vector<uint8_t> pixels_;  // of an image that was kept
 };
 
 }  // namespace unisim::onnx
