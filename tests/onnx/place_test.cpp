@@ -121,6 +121,19 @@ TEST_CASE("without a descriptor model images are told apart by their features") 
   CHECK(descriptors[0] != std::vector<int8_t>(1024, 0));
 }
 
+TEST_CASE("the smallest images are described or refused, none ends the run") {
+  UNISIM_SKIP_WITHOUT_RUNTIME();
+  for (const int32_t width : {16, 40, 41, 64, 100}) {
+    const Opened opened = open_with_places("multiview.onnx", "");
+    REQUIRE(opened.predictor != nullptr);
+    unisim_predictor* predictor = opened.predictor.get();
+    add_keyframes(predictor, colourful_images(width, 3 * width / 4, 1));
+    unisim_place_descriptor place{};
+    INFO(width << " pixels: " << predictor->message(predictor));
+    CHECK(predictor->place_descriptor(predictor, 0, &place) != UNISIM_PREDICTION_FAILED);
+  }
+}
+
 TEST_CASE("an image with nothing to see is no place, and says so") {
   UNISIM_SKIP_WITHOUT_RUNTIME();
   const Opened opened = open_with_places("multiview.onnx", "");
