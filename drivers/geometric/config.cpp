@@ -50,6 +50,39 @@ bool has_unknown_tail(const unisim_geometric_config& in) {
   return false;
 }
 
+/// What is wrong with what is said of the camera.
+std::string camera_problem(const unisim_geometric_config& c) {
+  const auto length = [](double value) { return std::isfinite(value) && value >= 0; };
+  if (!length(c.focal_px) || !length(c.focal_y_px)) {
+    return "focal_px must be a positive number of pixels, or 0 to estimate it; focal_y_px too";
+  }
+  if (!length(c.principal_x_px) || !length(c.principal_y_px) ||
+      (c.principal_x_px > 0) != (c.principal_y_px > 0)) {
+    return "principal_x_px and principal_y_px must be positive numbers of pixels, or both 0";
+  }
+  if (c.distortion_model < UNISIM_DISTORTION_UNKNOWN ||
+      c.distortion_model > UNISIM_DISTORTION_FISHEYE) {
+    return "distortion_model is " + std::to_string(c.distortion_model) + ", must be 0 to 2";
+  }
+  if (c.calibrated_width < 0 || c.calibrated_height < 0 ||
+      (c.calibrated_width > 0) != (c.calibrated_height > 0)) {
+    return "calibrated_width and calibrated_height must be the calibration's image size, or 0";
+  }
+  if (c.focal_px == 0 && (c.focal_y_px > 0 || c.distortion_model != UNISIM_DISTORTION_UNKNOWN)) {
+    return "focal_y_px and distortion need focal_px: distortion is told in focal lengths";
+  }
+  for (int i = 0; i < UNISIM_DISTORTION_TERMS; ++i) {
+    if (!std::isfinite(c.distortion[i])) return "a distortion term is not a number";
+    const bool used = c.distortion_model == UNISIM_DISTORTION_PINHOLE ||
+                      (c.distortion_model == UNISIM_DISTORTION_FISHEYE && i < 4);
+    if (c.distortion[i] != 0 && !used) {
+      return "distortion term " + std::to_string(i + 1) + " is none of distortion_model " +
+             std::to_string(c.distortion_model);
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string read_config(const unisim_geometric_config* in, unisim_geometric_config* out) {
@@ -84,9 +117,8 @@ std::string read_config(const unisim_geometric_config* in, unisim_geometric_conf
     return std::string("geometric: ") + range.name + " is " + std::to_string(range.value) +
            ", must be " + std::to_string(range.least) + " to " + std::to_string(range.most);
   }
-  if (!std::isfinite(out->focal_px) || out->focal_px < 0) {
-    return "geometric: focal_px must be a positive number of pixels, or 0 to estimate it";
-  }
+  const std::string camera = camera_problem(*out);
+  if (!camera.empty()) return "geometric: " + camera;
   if (!(out->min_share >= 0 && out->min_share <= 1)) {
     return "geometric: min_share must be 0 to 1";
   }

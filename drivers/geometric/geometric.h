@@ -15,6 +15,14 @@
 extern "C" {
 #endif
 
+/* What is known of the lens. */
+#define UNISIM_DISTORTION_UNKNOWN 0 /**< one radial term is estimated */
+#define UNISIM_DISTORTION_PINHOLE 1 /**< OpenCV's: k1 k2 p1 p2 k3 k4 k5 k6; all 0: none */
+#define UNISIM_DISTORTION_FISHEYE                                 \
+  2 /**< OpenCV's fisheye (Kannala-Brandt, "equidistant"): k1..k4 \
+     */
+#define UNISIM_DISTORTION_TERMS 8
+
 /** Everything a geometric predictor is made with. Its memory follows from these numbers and the
  * size of the first image. */
 typedef struct unisim_geometric_config {
@@ -44,6 +52,19 @@ typedef struct unisim_geometric_config {
   int32_t min_inliers; /**< landmarks that must look there as they did (20) */
   int32_t reserved2;   /**< 0 */
   double min_share;    /**< and the share of those in view, 0..1 (0.2) */
+  /* A calibrated camera: what is given holds, the rest is estimated. Where it is more than
+     focal_px, images are first turned into those of an ideal camera of the same focal length,
+     square pixels and the principal point in the middle: depth maps and focal lengths of
+     predictions are of that image (unisim_geometric_view()), features() are places in the image
+     as it came. */
+  double focal_y_px;     /**< where it differs from focal_px; 0: the same (0) */
+  double principal_x_px; /**< principal point, pixel centres at whole numbers; 0, 0: not known, */
+  double principal_y_px; /**< the middle is taken (0) */
+  int32_t distortion_model;  /**< UNISIM_DISTORTION_*; needs focal_px (0) */
+  int32_t calibrated_width;  /**< image size that all of this is of; frames of the same shape may */
+  int32_t calibrated_height; /**< have another: it is scaled. 0, 0: the frames' (0) */
+  int32_t reserved3;         /**< 0 */
+  double distortion[UNISIM_DISTORTION_TERMS]; /**< in the order of the model, the rest 0 (0) */
 } unisim_geometric_config;
 
 /** Defaults for every field.
@@ -58,6 +79,34 @@ UNISIM_API void unisim_geometric_config_init(unisim_geometric_config* config, si
  *  @return NULL on failure; else free with its destroy() */
 UNISIM_API unisim_predictor* unisim_geometric_create(const unisim_geometric_config* config,
                                                      char* message, size_t capacity);
+
+/** Read a calibrated camera from a YAML file as OpenCV's calibration programs, ROS (calibration
+ * file or camera_info) and EuRoC write it.
+ *  @param      path    file
+ *  @param[in,out] config gets focal lengths, principal point, distortion and image size
+ *  @param[out] message one line on failure; may be NULL
+ *  @param      capacity bytes of message
+ *  @return 1, or 0: not readable, not such a file, or values no camera has; config is unchanged */
+UNISIM_API int32_t unisim_geometric_read_calibration(const char* path,
+                                                     unisim_geometric_config* config, char* message,
+                                                     size_t capacity);
+
+/** Whether what is given of the camera can be that of frames of this size: their shape is the
+ *  calibration's, the principal point lies in them. Creation cannot know, the first frame would.
+ *  @param[out] message one line where it cannot; may be NULL
+ *  @return 1, or 0 */
+UNISIM_API int32_t unisim_geometric_camera_fits(const unisim_geometric_config* config,
+                                                int32_t width, int32_t height, char* message,
+                                                size_t capacity);
+
+/** A frame's image as the predictor looks at it: what its depth maps and focal lengths are of. With
+ * a calibrated lens that of the ideal camera, else the image itself. To the front group of
+ * predictor.h.
+ *  @param      predictor any; of another kind the image itself is given
+ *  @param      image     of the frame observed last
+ *  @param[out] out       of the same size; valid until the next call of the front group */
+UNISIM_API void unisim_geometric_view(unisim_predictor* predictor, const unisim_image* image,
+                                      unisim_image* out);
 
 #ifdef __cplusplus
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/geometric/camera/ideal_view.hpp"
 #include "drivers/geometric/config.hpp"
 #include "drivers/geometric/geometric.h"
 #include "drivers/geometric/map/mapper.hpp"
@@ -27,6 +28,7 @@ struct GeometricPredictor {
   unisim_predictor table{};  // first: the table's address is the predictor's
   unisim_geometric_config config{};
   std::vector<uint8_t> mask;  // pixels of config.mask
+  IdealView view;
   std::unique_ptr<Mapper> mapper;
   std::unique_ptr<Predictions> predictions;
   cv::Size size;
@@ -68,7 +70,18 @@ bool fits_mask(GeometricPredictor* me, const unisim_image& image) {
   return false;
 }
 
-/// Makes the state for the first image. @return false with a message for an unusable image
+/// Makes the state for the first image. @return false with a message when the camera is another
+bool open_state(GeometricPredictor* me, const cv::Size& size) {
+  if (me->mapper) return true;
+  me->message = me->view.open(size, &me->config);
+  if (!me->message.empty()) return false;
+  me->size = size;
+  me->mapper = std::make_unique<Mapper>(me->config, size);
+  me->predictions = std::make_unique<Predictions>(me->config, size);
+  return true;
+}
+
+/// @return false with a message for an unusable image
 bool accept_image(GeometricPredictor* me, const unisim_image& image) {
   if (image.data == nullptr) {
     me->message = "geometric: the frame has no pixels";
@@ -86,12 +99,7 @@ bool accept_image(GeometricPredictor* me, const unisim_image& image) {
     return false;
   }
   const cv::Size size(image.width, image.height);
-  if (!me->mapper) {
-    me->size = size;
-    me->mapper = std::make_unique<Mapper>(me->config, size);
-    me->predictions = std::make_unique<Predictions>(me->config, size);
-  }
-  if (size != me->size) {
+  if (me->mapper && size != me->size) {
     me->message = "geometric: image size changed from " + std::to_string(me->size.width) + "x" +
                   std::to_string(me->size.height) + " to " + std::to_string(size.width) + "x" +
                   std::to_string(size.height);
@@ -109,7 +117,10 @@ int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motio
       me->left_out_why = me->message;
       return UNISIM_PREDICTION_REJECTED;
     }
-    me->mapper->see(*frame);
+    if (!open_state(me, {frame->image.width, frame->image.height})) return UNISIM_PREDICTION_FAILED;
+    unisim_frame seen = *frame;
+    if (me->view.active()) seen.image = me->view.run(frame->image, true);
+    me->mapper->see(seen);
     const TrackMotion moved = me->mapper->motion();
     motion->tracked = moved.kept;
     if (moved.displacement_px < 0) return UNISIM_PREDICTION_OK;
@@ -196,7 +207,8 @@ int32_t features(unisim_predictor* predictor, const unisim_feature** out) {
     const LandmarkMap& map = me->mapper->state().map;
     for (size_t i = 0; i < tracks.size(); ++i) {
       const bool placed = map.landmark(tracks.landmark[i]).state == LandmarkState::kPlaced;
-      me->features.push_back({tracks.point[i].x, tracks.point[i].y, placed ? 1 : 0});
+      const cv::Point2f place = me->view.place_in_image(tracks.point[i]);
+      me->features.push_back({place.x, place.y, placed ? 1 : 0});
     }
     return UNISIM_PREDICTION_OK;
   });
@@ -239,7 +251,7 @@ void info(unisim_predictor* predictor, unisim_predictor_info* out) {
   out->restarts = counts.restarts;
   out->rotation_only = counts.rotation_only;
   me->mapper->places().info(out);
-  out->state_bytes = me->mapper->bytes() + me->predictions->bytes();
+  out->state_bytes = me->mapper->bytes() + me->predictions->bytes() + me->view.bytes();
   if (out->initialised == 0) return;
   out->focal_px = intrinsics.camera.focal_px;
   out->focal_sigma_px = intrinsics.log_focal_sigma * intrinsics.camera.focal_px;
@@ -295,4 +307,16 @@ unisim_predictor* unisim_geometric_create(const unisim_geometric_config* config,
   }
   if (message != nullptr && capacity > 0) std::snprintf(message, capacity, "%s", problem.c_str());
   return nullptr;
+}
+
+void unisim_geometric_view(unisim_predictor* predictor, const unisim_image* image,
+                           unisim_image* out) {
+  namespace g = unisim::geometric;
+  *out = *image;
+  if (predictor->destroy != g::destroy || image->data == nullptr) return;
+  g::guarded(predictor, [&](g::GeometricPredictor* me) {
+    const bool same = image->width == me->size.width && image->height == me->size.height;
+    if (me->view.active() && same) *out = me->view.run(*image, false);
+    return UNISIM_PREDICTION_OK;
+  });
 }

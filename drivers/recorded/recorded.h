@@ -64,6 +64,10 @@ UNISIM_API int unisim_recorded_windows(const unisim_predictor* recorded, int32_t
  *  @return "geometric", ...; "" where a file does not say; valid until the predictor's destroy() */
 UNISIM_API const char* unisim_predictor_origin(const unisim_predictor* predictor);
 
+/** The predictor inside a recorder, or in recorders one in another; any other is itself. For
+ * functions that one kind of predictor has beside its table. It stays the recorder's. */
+UNISIM_API unisim_predictor* unisim_predictor_inside(unisim_predictor* predictor);
+
 /** Size of the images a recording was made from, which need not be there any more.
  *  @param predictor any predictor; through a recorder the one inside
  *  @param[out] width, height pixels

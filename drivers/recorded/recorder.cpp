@@ -291,6 +291,10 @@ const char* unisim_recorder_problem(const unisim_predictor* recorder) {
   return static_cast<const unisim::recorded::Recorder*>(recorder)->writer.problem().c_str();
 }
 
+unisim_predictor* unisim_predictor_inside(unisim_predictor* predictor) {
+  return const_cast<unisim_predictor*>(unisim::recorded::innermost(predictor));
+}
+
 const char* unisim_predictor_origin(const unisim_predictor* predictor) {
   const unisim_predictor* inside = unisim::recorded::innermost(predictor);
   const unisim::recorded::FileInfo* file = unisim::recorded::recorded_file(inside);

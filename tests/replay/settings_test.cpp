@@ -43,6 +43,7 @@ TEST_CASE("a value of no field's range is refused with file, line, field and ran
   for (const Field& field : all_fields(&settings)) {
     for (const char* value : {"nan", "-inf", "inf", "-1", "1e300", "9000000000000000000", "\"8\"",
                               "[8]", "2001-01-01"}) {
+      if (std::string(value) == "-1" && field.range.holds(-1.0)) continue;
       INFO(field.name() << " = " << value);
       const std::string path = folder.write(
           "run.toml", "# first line\n[" + field.section + "]\n" + field.key + " = " + value + "\n");

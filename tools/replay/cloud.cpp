@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "drivers/geometric/geometric.h"
+
 namespace unisim::replay {
 namespace {
 
@@ -103,7 +105,10 @@ std::string ply_header(int64_t points, int32_t segment) {
 void Cloud::on_keyframe(int32_t id, const unisim_frame& frame) {
   while (!views_.empty() && views_.begin()->first <= id - kViewsInMemory) settle(views_.begin());
   View& view = views_[id];
-  const unisim_image& image = frame.image;
+  unisim_image image = frame.image;
+  if (options_.predictor != nullptr) {
+    unisim_geometric_view(options_.predictor, &frame.image, &image);
+  }
   view.width = image.width > 0 ? image.width : options_.image_width;
   view.height = image.height > 0 ? image.height : options_.image_height;
   if (image.data == nullptr || image.width <= 0 || image.height <= 0) return;

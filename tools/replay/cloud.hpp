@@ -21,7 +21,8 @@ namespace unisim::replay {
 struct CloudOptions {
   int32_t image_width = 0;  ///< pixels, of the frames that come without any; 0: not known
   int32_t image_height = 0;
-  double confidence_drop = 0.25;  ///< share of least confident pixels of a view left out
+  double confidence_drop = 0.25;          ///< share of least confident pixels of a view left out
+  unisim_predictor* predictor = nullptr;  ///< whose view is coloured; nullptr: the frames
   double min_confidence = 0.0;  ///< pixels below it are left out too; its scale is the predictor's
 };
 

@@ -48,6 +48,19 @@ PredictorPtr open_onnx(const Options& options, std::vector<std::string>* notes) 
   return predictor;
 }
 
+/// Before the run rather than at its first frame: a wrong file is bad input.
+void check_camera(const Options& options) {
+  const unisim_geometric_config& camera = options.settings.geometric;
+  if (camera.calibrated_width == 0 && camera.principal_x_px == 0) return;
+  const auto size = frame_size(options);
+  char message[kLine] = "";
+  if (!size || unisim_geometric_camera_fits(&camera, size->width, size->height, message,
+                                            sizeof message) != 0) {
+    return;
+  }
+  throw tools::Failure(tools::kExitInput, options.sequence + ": " + message);
+}
+
 PredictorPtr open_inner(const Options& options, std::vector<std::string>* notes) {
   if (options.predictor == "onnx") return open_onnx(options, notes);
   char message[kLine] = "";
@@ -58,6 +71,7 @@ PredictorPtr open_inner(const Options& options, std::vector<std::string>* notes)
     notes->emplace_back(message);
     return predictor;
   }
+  check_camera(options);
   const Mask mask = load_mask(options);
   unisim_geometric_config config = options.settings.geometric;
   config.mask = mask.view;
@@ -83,6 +97,17 @@ SourcePtr open_sequence(const Options& options, std::vector<std::string>* notes)
     notes->emplace_back(unisim_sequence_note(source.get(), i));
   }
   return source;
+}
+
+std::optional<FrameSize> frame_size(const Options& options) {
+  if (options.settings.pipeline.live) return std::nullopt;
+  std::vector<std::string> notes;
+  const SourcePtr source = open_sequence(options, &notes);
+  unisim_frame frame{};
+  int answer = UNISIM_FRAME_BAD;
+  while (answer == UNISIM_FRAME_BAD) answer = source->next_frame(source.get(), 1, &frame);
+  if (answer != UNISIM_FRAME_OK) return std::nullopt;
+  return FrameSize{frame.image.width, frame.image.height};
 }
 
 PredictorPtr open_predictor(const Options& options, Settings* settings,

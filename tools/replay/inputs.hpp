@@ -2,6 +2,8 @@
 // Opens what a run works with: the sequence and the predictor.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,15 @@ using drivers::SourcePtr;
 /// Throws Failure (3).
 /// @param[out] notes lines worth telling
 SourcePtr open_sequence(const Options& options, std::vector<std::string>* notes);
+
+struct FrameSize {
+  int32_t width = 0;
+  int32_t height = 0;
+};
+
+/// Of the sequence's first readable frame. Nothing where there is none, as the run itself will say,
+/// or where the frames are those of a live camera.
+std::optional<FrameSize> frame_size(const Options& options);
 
 /// The predictor asked for, inside a recorder where --record asks for one. Throws Failure.
 /// @param[in,out] settings its windows are fitted to what the predictor can give

@@ -14,26 +14,16 @@ tools::Failure bad_mask(const Options& options, const std::string& what) {
   return {tools::kExitInput, options.mask + ": " + what};
 }
 
-/// The first readable frame. @return false when there is none
-bool first_frame(unisim_source* source, unisim_frame* frame) {
-  int answer = UNISIM_FRAME_BAD;
-  while (answer == UNISIM_FRAME_BAD) answer = source->next_frame(source, 1, frame);
-  return answer == UNISIM_FRAME_OK;
+std::string size_text(int32_t width, int32_t height) {
+  return std::to_string(width) + "x" + std::to_string(height);
 }
 
-std::string size_text(const unisim_image& image) {
-  return std::to_string(image.width) + "x" + std::to_string(image.height);
-}
-
-/// Where the sequence has no readable frame, the run itself says so.
 void check_size(const Options& options, const unisim_image& mask) {
-  std::vector<std::string> notes;
-  const SourcePtr source = open_sequence(options, &notes);
-  unisim_frame frame{};
-  if (!first_frame(source.get(), &frame)) return;
-  if (frame.image.width == mask.width && frame.image.height == mask.height) return;
-  throw bad_mask(options, "the mask has " + size_text(mask) + " pixels, the frames " +
-                              size_text(frame.image) + "; give a mask of their size");
+  const auto size = frame_size(options);
+  if (!size || (size->width == mask.width && size->height == mask.height)) return;
+  throw bad_mask(options, "the mask has " + size_text(mask.width, mask.height) +
+                              " pixels, the frames " + size_text(size->width, size->height) +
+                              "; give a mask of their size");
 }
 
 }  // namespace

@@ -71,8 +71,9 @@ void prepare(pipeline::Pipeline* pipeline) {
 }
 
 /// A recording of the geometric predictor is filtered as the predictor itself: the same map.
-CloudOptions cloud_options(const unisim_predictor* predictor) {
+CloudOptions cloud_options(unisim_predictor* predictor) {
   CloudOptions options;
+  options.predictor = unisim_predictor_inside(predictor);
   unisim_predictor_recorded_size(predictor, &options.image_width, &options.image_height);
   const bool geometric = std::string_view(unisim_predictor_origin(predictor)) == "geometric";
   if (geometric) options.min_confidence = kGeometricConfidence;
@@ -206,8 +207,7 @@ class Results {
         live_(folder_.path_of("trajectory_live.tum")) {}
 
   /// The listeners, once the predictor is known.
-  std::vector<pipeline::Listener*> listen(const unisim_predictor* predictor,
-                                          const Options& options) {
+  std::vector<pipeline::Listener*> listen(unisim_predictor* predictor, const Options& options) {
     cloud_.emplace(cloud_options(predictor), options.out);
     return {&record_, &live_, &*cloud_};
   }

@@ -3,6 +3,7 @@
 #include "tools/replay/run_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <map>
 
 #include "drivers/lcm/problem.h"
@@ -45,6 +46,19 @@ void RunOptions::add_camera_options(CLI::App* app) {
                   "image of the frames' size, black where nothing is to be looked at (own body)");
   app->add_option("--focal", focal_, "known focal length in pixels (default: estimated)")
       ->transform(in_range(Range::above(0.0, kMostFocalPx)));
+  app->add_option("--principal", principal_,
+                  "known principal point, X,Y in pixels (default: the middle)")
+      ->delimiter(',')
+      ->expected(2)
+      ->transform(in_range(Range::above(0.0, kMostFocalPx)));
+  app->add_option(
+         "--distortion", distortion_,
+         "known distortion, OpenCV's k1,k2[,p1,p2[,k3]], with --focal (default: estimated)")
+      ->delimiter(',')
+      ->expected(2, 5)
+      ->transform(in_range(Range::number(-kMostDistortion, kMostDistortion)));
+  app->add_option("--calibration", calibration_,
+                  "the three from a YAML file as OpenCV, ROS or EuRoC write it");
 }
 
 void RunOptions::add_method_options(CLI::App* app) {
@@ -132,7 +146,7 @@ void RunOptions::apply() {
     settings->session.window_overlap = *overlap_;
     settings->window_overlap_given = true;
   }
-  if (focal_) settings->geometric.focal_px = *focal_;
+  take_camera();
   if (batch_) settings->session.window_submaps = 0;
   if (every_frame_) settings->pipeline.every_frame = true;
   if (threads_) settings->onnx.threads = *threads_;
@@ -152,6 +166,39 @@ void RunOptions::apply() {
 void RunOptions::take_models() {
   if (options_->model_pair.empty()) options_->model_pair = model_;
   if (options_->model_window.empty()) options_->model_window = model_;
+}
+
+void RunOptions::take_camera() {
+  unisim_geometric_config* const camera = &options_->settings.geometric;
+  const auto require = [](bool good, const char* line) {
+    if (!good) throw tools::Failure(tools::kExitUsage, line);
+  };
+  const bool apart = !principal_.empty() || !distortion_.empty();
+  require(calibration_.empty() || (!focal_ && !apart),
+          "--calibration says it all; leave out --focal, --principal and --distortion");
+  require(options_->predictor == "geometric" || (calibration_.empty() && !apart),
+          "--principal, --distortion and --calibration go with --predictor geometric");
+  require(distortion_.size() != 3, "--distortion takes k1,k2 or k1,k2,p1,p2 or k1,k2,p1,p2,k3");
+  if (focal_) {
+    camera->focal_px = *focal_;
+    camera->focal_y_px = 0;
+  }
+  if (!principal_.empty()) {
+    camera->principal_x_px = principal_[0];
+    camera->principal_y_px = principal_[1];
+  }
+  if (!distortion_.empty()) {
+    require(camera->focal_px > 0, "--distortion needs --focal: it is told in focal lengths");
+    camera->distortion_model = UNISIM_DISTORTION_PINHOLE;
+    std::fill(camera->distortion, camera->distortion + UNISIM_DISTORTION_TERMS, 0.0);
+    std::copy(distortion_.begin(), distortion_.end(), camera->distortion);
+  }
+  if (calibration_.empty()) return;
+  char message[1024] = "";
+  if (unisim_geometric_read_calibration(calibration_.c_str(), camera, message, sizeof message) ==
+      0) {
+    throw tools::Failure(tools::kExitInput, message);
+  }
 }
 
 void RunOptions::check() const {

@@ -33,6 +33,7 @@ class RunOptions {
   void add_output_options(CLI::App* app);
   void add_lcm_options(CLI::App* app);
   void take_models();
+  void take_camera();
 
   Options* options_;
   std::string config_;
@@ -40,6 +41,9 @@ class RunOptions {
   std::optional<int32_t> window_;
   std::optional<int32_t> overlap_;
   std::optional<double> focal_;
+  std::vector<double> principal_;
+  std::vector<double> distortion_;
+  std::string calibration_;
   std::vector<std::string> disabled_;
   bool every_frame_ = false;
   bool no_loop_ = false;

@@ -81,12 +81,23 @@ void add_geometric_fields(unisim_geometric_config* c, std::vector<Field>* fields
        {s, "revive_age", &c->revive_age, Range::whole(0, 1000000)},
        {s, "revive_tries", &c->revive_tries, Range::whole(0, 2000)},
        {s, "focal_px", &c->focal_px, Range::number(0.0, kMostFocalPx)},
+       {s, "focal_y_px", &c->focal_y_px, Range::number(0.0, kMostFocalPx)},
+       {s, "principal_x_px", &c->principal_x_px, Range::number(0.0, kMostFocalPx)},
+       {s, "principal_y_px", &c->principal_y_px, Range::number(0.0, kMostFocalPx)},
+       {s, "distortion_model", &c->distortion_model,
+        Range::whole(UNISIM_DISTORTION_UNKNOWN, UNISIM_DISTORTION_FISHEYE)},
+       {s, "calibrated_width", &c->calibrated_width, Range::whole(0, 100000)},
+       {s, "calibrated_height", &c->calibrated_height, Range::whole(0, 100000)},
        {s, "places", &c->places, Range::whole(0, 1)},
        {s, "loop_gap", &c->loop_gap, Range::whole(6, 100000)},
        {s, "loop_tries", &c->loop_tries, Range::whole(0, 50)},
        {s, "min_pnp", &c->min_pnp, Range::whole(6, 1000)},
        {s, "min_inliers", &c->min_inliers, Range::whole(6, 1000)},
        {s, "min_share", &c->min_share, Range::number(0.0, 1.0)}});
+  for (int i = 0; i < UNISIM_DISTORTION_TERMS; ++i) {
+    fields->push_back({s, "distortion_" + std::to_string(i + 1), &c->distortion[i],
+                       Range::number(-kMostDistortion, kMostDistortion)});
+  }
 }
 
 void add_onnx_fields(unisim_onnx_config* c, std::vector<Field>* fields) {

@@ -26,6 +26,8 @@ std::vector<Field> all_fields(Settings* settings);
 // Ends of ranges that options of the command line have too.
 constexpr int64_t kMostStride = 1000000;
 constexpr double kMostFocalPx = 1e6;
+// Fisheye polynomials of high order run to hundreds.
+constexpr double kMostDistortion = 1e6;
 constexpr int64_t kMostThreads = 256;
 constexpr int64_t kMostMemoryMb = 100000000;
 

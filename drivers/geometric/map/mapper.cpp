@@ -52,7 +52,8 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
   state_.feature_spacing = std::max(
       1,
       static_cast<int>(kSpacing * std::sqrt(static_cast<double>(size.area()) / config.max_tracks)));
-  state_.intrinsics = Intrinsics::start(size, config.focal_px);
+  const bool lens_known = config.distortion_model != UNISIM_DISTORTION_UNKNOWN;
+  state_.intrinsics = Intrinsics::start(size, config.focal_px, lens_known);
   const auto tracks = static_cast<size_t>(observations_per_keyframe(config));
   state_.tracks.reserve(tracks);
   places_.open(size);

@@ -18,9 +18,10 @@ constexpr double kMinFocal = 0.3;  // of the image width
 constexpr double kMaxFocal = 3.0;
 }  // namespace
 
-Intrinsics Intrinsics::start(const cv::Size& size, double focal_px) {
+Intrinsics Intrinsics::start(const cv::Size& size, double focal_px, bool k1_known) {
   Intrinsics out;
   out.focal_known = focal_px > 0;
+  out.k1_known = k1_known;
   out.start_focal = out.focal_known ? focal_px : kStartFocal * std::max(size.width, size.height);
   out.camera.focal_px = out.start_focal;
   out.camera.cx = size.width / 2.0 - 0.5;
@@ -35,7 +36,7 @@ void Intrinsics::note_rotation(double angle_rad) { turned_rad = std::max(turned_
 void Intrinsics::give(bool early, BundleIntrinsics* out) const {
   out->set_model(camera);
   out->free_focal = !focal_known;
-  out->free_k1 = k1_observable();
+  out->free_k1 = !k1_known && k1_observable();
   out->log_focal_mean = std::log(start_focal);
   out->log_focal_sigma = early ? kStartSigma : 0.0;
   out->k1_mean = 0.0;

@@ -15,12 +15,13 @@ namespace unisim::geometric {
 struct Intrinsics {
   CameraModel camera;
   bool focal_known = false;
+  bool k1_known = false;  ///< the images come from an ideal camera
   double start_focal = 0;
   double turned_rad = 0;       ///< largest rotation seen within a segment
   double log_focal_sigma = 0;  ///< from the last adjustment of the whole state, 0: not known
 
   /// @param focal_px known focal length or 0
-  static Intrinsics start(const cv::Size& size, double focal_px);
+  static Intrinsics start(const cv::Size& size, double focal_px, bool k1_known = false);
   bool k1_observable() const;
   /// Notes a camera turned by `angle_rad` against the segment's start.
   void note_rotation(double angle_rad);
