@@ -12,7 +12,7 @@ readonly PACKAGES="cmake g++ ninja-build pkg-config python3 libeigen3-dev libope
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev catch2 liblcm-dev liblcm-bin
   libcpp-httplib-dev"
 readonly CONTRIBUTOR_PACKAGES="ccache dpkg-dev help2man clang clang-format-19 clang-tidy-19 shellcheck doxygen
-  python3-numpy python3-pil chromium ffmpeg g++-aarch64-linux-gnu g++-arm-linux-gnueabihf
+  python3-numpy python3-opencv python3-pil chromium ffmpeg g++-aarch64-linux-gnu g++-arm-linux-gnueabihf
   g++-riscv64-linux-gnu gcc-arm-none-eabi
   libstdc++-arm-none-eabi-newlib qemu-user-static qemu-system-x86 busybox-static cpio"
 

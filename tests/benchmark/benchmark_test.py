@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: MIT
+"""benchmark.py on a small rendered recording: its table, its comparison, and what it refuses."""
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+try:
+    import cv2
+    import numpy as np
+except ImportError as problem:
+    print(f"skipped: {problem}")
+    sys.exit(0)
+
+PROGRAMS = sys.argv.pop() if len(sys.argv) > 1 else "build/release/bin"
+TOOLS = Path(__file__).resolve().parents[2] / "tools"
+sys.path.insert(0, str(TOOLS))
+from benchmark_conditions import BARREL, CONDITIONS  # noqa: E402
+from benchmark_table import comparison_text  # noqa: E402
+
+
+def run(*options):
+    return subprocess.run([sys.executable, "-B", str(TOOLS / "benchmark.py"), "--bin", PROGRAMS, *map(str, options)],
+                          capture_output=True, text=True)
+
+
+class Program(unittest.TestCase):
+    def test_table_and_comparison(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = Path(folder) / "out"
+            made = ["--synth", "corridor", "--synth-frames", 60, "--synth-size", "160x120", "--conditions",
+                    "original,jpeg-20", "--out", out]
+            first = run(*made, "--store", out / "kept.json")
+            self.assertEqual(first.returncode, 0, first.stderr)
+            self.assertIn("| synth-corridor | original |", first.stdout)
+            self.assertIn("| synth-corridor | jpeg-20 |", first.stdout)
+            self.assertEqual(first.stdout, (out / "table.md").read_text())
+            table = json.loads((out / "kept.json").read_text())
+            self.assertEqual(len(table["rows"]), 2)
+            for name in ("program", "frames", "alignment", "ground truth", "machine", "first frames"):
+                self.assertIn(name, table["protocol"])
+            again = run(*made, "--compare", out / "kept.json")
+            self.assertEqual(again.returncode, 0, again.stderr)
+            self.assertIn("new over earlier", again.stdout)
+
+    def test_bad_input_is_refused_in_one_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            no_table = Path(folder) / "no.json"
+            no_table.write_text("[]")
+            cases = ((2, "--synth", ["--out", folder]),
+                     (2, "blurr", ["--synth", "room", "--conditions", "blurr", "--out", folder]),
+                     (2, "--offsets", ["--synth", "room", "--offsets", "x", "--out", folder]),
+                     (3, "nowhere", [Path(folder) / "nowhere", "--out", folder]),
+                     (3, "no.json", ["--synth", "room", "--compare", no_table, "--out", folder]),
+                     (3, "no program", ["--synth", "room", "--bin", "no program", "--out", folder]))
+            for code, part, options in cases:
+                refused = run(*options)
+                self.assertEqual(refused.returncode, code, refused.stderr)
+                self.assertIn(part, refused.stderr)
+                self.assertEqual(len(refused.stderr.strip().splitlines()), 1, refused.stderr)
+
+
+class Comparison(unittest.TestCase):
+    def test_what_got_worse_is_named(self):
+        row = {"recording": "a", "condition": "b", "ate_m": 0.1, "coverage": 1.0, "fps": 100.0}
+        worse = dict(row, ate_m=0.12, fps=95.0)
+        flagged = comparison_text({"rows": [worse]}, {"rows": [row]}, 0.1).splitlines()[-1]
+        self.assertIn("1.20", flagged)
+        self.assertTrue(flagged.endswith("| ate_m |"), flagged)
+        lost = {key: value for key, value in row.items() if key != "ate_m"}
+        self.assertIn("ate_m gone", comparison_text({"rows": [lost]}, {"rows": [row]}, 0.1))
+        self.assertTrue(comparison_text({"rows": [row]}, {"rows": [row]}, 0.1).endswith("|  |\n"))
+
+
+class Conditions(unittest.TestCase):
+    def setUp(self):
+        rng = np.random.default_rng(1)
+        self.frames = [cv2.GaussianBlur(rng.integers(0, 255, (120, 160, 3)).astype(np.uint8), (9, 9), 3)
+                       for _ in range(12)]
+
+    def test_each_gives_images_of_one_size_with_frames_of_the_recording(self):
+        for name, condition in CONDITIONS.items():
+            with self.subTest(name):
+                made = list(condition.make(self.frames, 140.0))
+                self.assertGreater(len(made), 0)
+                self.assertEqual(len({image.shape for image, _ in made}), 1)
+                for image, index in made:
+                    self.assertEqual(image.dtype, np.uint8)
+                    self.assertTrue(index is None or 0 <= index < len(self.frames))
+
+    def test_barrel_is_undone_by_its_own_calibration(self):
+        bent, _ = next(iter(CONDITIONS["barrel"].make(self.frames, 140.0)))
+        height, width = bent.shape[:2]
+        camera = np.array([[140.0, 0, (width - 1) / 2], [0, 140.0, (height - 1) / 2], [0, 0, 1]])
+        straight = cv2.undistort(bent, camera, np.array([*BARREL, 0, 0]))
+        middle = self.frames[0][30:90, 40:120].astype(int)
+        top, left = (120 - height) // 2, (160 - width) // 2
+        difference = np.abs(straight[30 - top:90 - top, 40 - left:120 - left].astype(int) - middle)
+        self.assertLess(difference.mean(), 3)
+
+
+if __name__ == "__main__":
+    unittest.main()
