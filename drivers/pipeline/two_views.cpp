@@ -18,8 +18,9 @@ constexpr int32_t kColumns = 16;
 constexpr int32_t kRows = 12;
 
 // Chosen on the simulator's walk of two rounds of seed 1, where all revisits within 0.35 m and 30
-// degrees pass; the tests hold them to seeds 2 and 3. Not on networks on real images yet. Look-alike
-// places that a network puts on each other pass; the second keyframe and the map decide on these.
+// degrees pass; the tests hold them to seeds 2 and 3. Not on networks on real images yet.
+// Look-alike places that a network puts on each other pass; the second keyframe and the map decide
+// on these.
 constexpr double kMostShift = 0.5;
 constexpr double kLeastInView = 0.3;
 // Depth of networks scatters by 3 to 10 % and has borders where it jumps.
