@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "drivers/common/image_mat.hpp"
 #include "drivers/common/median.hpp"
 
 namespace unisim::geometric {
@@ -20,11 +21,10 @@ void FrontEnd::open(const cv::Size& size, int max_tracks, int spacing, const uni
   spacing_ = spacing;
   mask_.create(size, CV_8UC1);
   if (look.data != nullptr) {
-    const cv::Mat seen(look.height, look.width, CV_8UC1, const_cast<uint8_t*>(look.data),
-                       static_cast<size_t>(look.stride));
     // A patch that reaches into what is hidden would be held fast by it.
     const cv::Size patch(kTrackWindow, kTrackWindow);
-    cv::dilate(seen == 0, hidden_, cv::getStructuringElement(cv::MORPH_RECT, patch));
+    cv::dilate(drivers::image_mat(look) == 0, hidden_,
+               cv::getStructuringElement(cv::MORPH_RECT, patch));
   }
   const auto count = 2 * static_cast<size_t>(max_tracks);
   tracker_.reserve(count);

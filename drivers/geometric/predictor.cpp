@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/common/size_text.hpp"
 #include "drivers/geometric/camera/ideal_view.hpp"
 #include "drivers/geometric/config.hpp"
 #include "drivers/geometric/geometric.h"
@@ -64,9 +65,9 @@ bool fits_mask(GeometricPredictor* me, const unisim_image& image) {
   const unisim_image& mask = me->config.mask;
   if (me->mapper || mask.data == nullptr || image.data == nullptr) return true;
   if (mask.width == image.width && mask.height == image.height) return true;
-  me->message = "the mask has " + std::to_string(mask.width) + "x" + std::to_string(mask.height) +
-                " pixels, the images " + std::to_string(image.width) + "x" +
-                std::to_string(image.height) + "; give a mask of the images' size";
+  me->message = "the mask has " + drivers::size_text(mask.width, mask.height) +
+                " pixels, the images " + drivers::size_text(image.width, image.height) +
+                "; give a mask of the images' size";
   return false;
 }
 
@@ -88,9 +89,9 @@ bool accept_image(GeometricPredictor* me, const unisim_image& image) {
     return false;
   }
   if (image.width < kMinSide || image.height < kMinSide) {
-    me->message = "geometric: " + std::to_string(image.width) + "x" + std::to_string(image.height) +
-                  " pixels are too few; give images of at least " + std::to_string(kMinSide) + "x" +
-                  std::to_string(kMinSide);
+    me->message = "geometric: " + drivers::size_text(image.width, image.height) +
+                  " pixels are too few; give images of at least " +
+                  drivers::size_text(kMinSide, kMinSide);
     return false;
   }
   if (image.format != UNISIM_PIXEL_GRAY8 && image.format != UNISIM_PIXEL_BGR8) {
@@ -100,9 +101,9 @@ bool accept_image(GeometricPredictor* me, const unisim_image& image) {
   }
   const cv::Size size(image.width, image.height);
   if (me->mapper && size != me->size) {
-    me->message = "geometric: image size changed from " + std::to_string(me->size.width) + "x" +
-                  std::to_string(me->size.height) + " to " + std::to_string(size.width) + "x" +
-                  std::to_string(size.height);
+    me->message = "geometric: image size changed from " +
+                  drivers::size_text(me->size.width, me->size.height) + " to " +
+                  drivers::size_text(size.width, size.height);
     return false;
   }
   return true;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "drivers/common/packed_copy.hpp"
+#include "drivers/common/size_text.hpp"
 
 namespace unisim::pipeline {
 namespace {
@@ -22,8 +23,8 @@ constexpr milliseconds kSlice(20);
 // an image. Together with the rest, a program still ends within a second.
 constexpr milliseconds kFarewell(500);
 
-std::string size_text(const unisim_image& image) {
-  return std::to_string(image.width) + "x" + std::to_string(image.height) +
+std::string shape_text(const unisim_image& image) {
+  return drivers::size_text(image.width, image.height) +
          (image.format == UNISIM_PIXEL_GRAY8 ? " gray" : " colour");
 }
 
@@ -215,8 +216,8 @@ int FrameReader::Shared::check_shape(const std::string& where, Slot* slot) {
     image = drivers::packed_copy(image, &slot->pixels);
     return UNISIM_FRAME_OK;
   }
-  slot->item.message = where + ": image is " + size_text(image) + ", the first one was " +
-                       size_text(first_) + (if_readable ? "" : "; frame skipped");
+  slot->item.message = where + ": image is " + shape_text(image) + ", the first one was " +
+                       shape_text(first_) + (if_readable ? "" : "; frame skipped");
   image = {};
   return if_readable ? UNISIM_FRAME_OK : UNISIM_FRAME_BAD;
 }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string_view>
 
+#include "drivers/common/size_text.hpp"
 #include "drivers/sequence/exif_orientation.hpp"
 #include "drivers/sequence/folder.hpp"
 
@@ -31,10 +32,6 @@ int take_orientation(std::vector<uint8_t>* file) {
   return tag->value;
 }
 
-std::string size_text(const cv::Size& size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
 }  // namespace
 
 // The end mark tells.
@@ -49,7 +46,8 @@ bool is_truncated(const std::vector<uint8_t>& file) {
 bool SizeCheck::fits(const cv::Mat& image, std::string* message) {
   if (size_.empty()) size_ = image.size();
   if (image.size() == size_) return true;
-  *message = "is " + size_text(image.size()) + " but the sequence began with " + size_text(size_);
+  *message = "is " + drivers::size_text(image.cols, image.rows) + " but the sequence began with " +
+             drivers::size_text(size_.width, size_.height);
   return false;
 }
 

@@ -5,6 +5,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "drivers/common/size_text.hpp"
+
 namespace unisim::sequence {
 namespace {
 
@@ -39,8 +41,8 @@ bool rows_of(const ImageMessage& message, int32_t pixel, cv::Mat* rows, std::str
   const int64_t needed = stride * (message.height - 1) + row;
   if (stride < row || needed > static_cast<int64_t>(message.size)) {
     *reason = "has " + std::to_string(message.size) + " bytes for " +
-              std::to_string(message.width) + "x" + std::to_string(message.height) +
-              " pixels in rows of " + std::to_string(stride);
+              drivers::size_text(message.width, message.height) + " pixels in rows of " +
+              std::to_string(stride);
     return false;
   }
   // OpenCV reads and does not write.
@@ -89,8 +91,7 @@ bool parse_image_message(const uint8_t* bytes, size_t size, ImageMessage* image,
     return false;
   }
   if (image->width <= 0 || image->height <= 0 || image->width > kMostPixels / image->height) {
-    *reason = "says it is " + std::to_string(image->width) + "x" + std::to_string(image->height) +
-              " pixels";
+    *reason = "says it is " + drivers::size_text(image->width, image->height) + " pixels";
     return false;
   }
   return true;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "drivers/common/size_text.hpp"
 #include "drivers/sequence/text_file.hpp"
 
 namespace unisim::sequence {
@@ -16,10 +17,6 @@ constexpr double kNearlySquare = 1e-3;
 // Anamorphic film has 2:1.
 constexpr double kLargestAspect = 8.0;
 
-std::string size_text(cv::Size size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
 int whole(double pixels) { return static_cast<int>(std::lround(pixels)); }
 
 }  // namespace
@@ -27,7 +24,8 @@ int whole(double pixels) { return static_cast<int>(std::lround(pixels)); }
 SquarePixels::SquarePixels(cv::Size stored, cv::Size shown, const std::string& aspect)
     : shown_(shown),
       notes_{"pixels are " + aspect + ", not square: the pictures are stretched from " +
-             size_text(stored) + " to " + size_text(shown) +
+             drivers::size_text(stored.width, stored.height) + " to " +
+             drivers::size_text(shown.width, shown.height) +
              ", and a focal length in pixels is of these"} {}
 
 const cv::Mat& SquarePixels::apply(const cv::Mat& image, cv::Mat* stretched) const {

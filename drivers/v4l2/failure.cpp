@@ -83,10 +83,6 @@ std::string fourcc_text(uint32_t fourcc) {
   return text;
 }
 
-std::string size_text(int32_t width, int32_t height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
-
 std::string rate_text(double fps) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", fps);

@@ -38,8 +38,6 @@ DeviceError call_failed(const std::string& device, const char* call, int error);
 /// "YUYV" of the four characters in a number.
 std::string fourcc_text(uint32_t fourcc);
 
-std::string size_text(int32_t width, int32_t height);
-
 /// "30", "29.97"
 std::string rate_text(double fps);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "drivers/common/size_text.hpp"
 #include "drivers/v4l2/enumerate.hpp"
 #include "drivers/v4l2/failure.hpp"
 #include "drivers/v4l2/pixel_formats.hpp"
@@ -14,9 +15,9 @@ namespace unisim::v4l2 {
 namespace {
 
 std::string size_line(const SizeOffer& size) {
-  std::string text = size_text(size.width, size.height);
+  std::string text = drivers::size_text(size.width, size.height);
   if (size.max_width != size.width || size.max_height != size.height) {
-    text += " to " + size_text(size.max_width, size.max_height);
+    text += " to " + drivers::size_text(size.max_width, size.max_height);
   }
   return size.fps > 0 ? text + " @ " + rate_text(size.fps) : text;
 }

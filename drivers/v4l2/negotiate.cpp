@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <tuple>
 
+#include "drivers/common/size_text.hpp"
 #include "drivers/v4l2/enumerate.hpp"
 #include "drivers/v4l2/failure.hpp"
 #include "drivers/v4l2/pixel_formats.hpp"
@@ -147,7 +148,7 @@ Mode mode_of(const v4l2_pix_format& pixels, const std::string& device) {
   // A gigapixel and no pixel are both a broken driver.
   if (mode.width <= 0 || mode.height <= 0 || mode.width > 32768 || mode.height > 32768) {
     throw DeviceError(UNISIM_V4L2_FAILED, 0,
-                      device + ": insists on size " + size_text(mode.width, mode.height) +
+                      device + ": insists on size " + drivers::size_text(mode.width, mode.height) +
                           ": take another camera");
   }
   const int32_t row = row_bytes(mode.fourcc, mode.width);
@@ -161,8 +162,8 @@ Mode mode_of(const v4l2_pix_format& pixels, const std::string& device) {
 void note_changes(const std::string& device, const Wish& wish, const v4l2_pix_format& pixels,
                   const Mode& mode, std::vector<std::string>* notes) {
   if (mode.width != wish.width || mode.height != wish.height) {
-    notes->push_back(device + ": gives " + size_text(mode.width, mode.height) + " instead of " +
-                     size_text(wish.width, wish.height));
+    notes->push_back(device + ": gives " + drivers::size_text(mode.width, mode.height) +
+                     " instead of " + drivers::size_text(wish.width, wish.height));
   }
   if (wish.fourcc != 0 && mode.fourcc != wish.fourcc) {
     notes->push_back(device + ": gives " + fourcc_text(mode.fourcc) + " instead of " +

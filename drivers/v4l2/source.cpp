@@ -8,6 +8,7 @@
 #include <cstring>
 #include <exception>
 
+#include "drivers/common/size_text.hpp"
 #include "drivers/v4l2/failure.hpp"
 
 namespace unisim::v4l2 {
@@ -220,8 +221,8 @@ bool CameraSource::open_again(std::string* reason) {
   }
   if (device_->mode().width != mode_.width || device_->mode().height != mode_.height) {
     const std::string text = device_->path() + ": came back with images of " +
-                             size_text(device_->mode().width, device_->mode().height) +
-                             " instead of " + size_text(mode_.width, mode_.height) +
+                             drivers::size_text(device_->mode().width, device_->mode().height) +
+                             " instead of " + drivers::size_text(mode_.width, mode_.height) +
                              ": start again";
     give_up(text.c_str());
     return false;

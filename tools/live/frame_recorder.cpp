@@ -10,6 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <system_error>
 
+#include "drivers/common/image_mat.hpp"
 #include "drivers/common/packed_copy.hpp"
 #include "tools/common/failure.hpp"
 #include "tools/common/text.hpp"
@@ -104,9 +105,7 @@ void FrameRecorder::loop() {
 
 /// @return why not, "" when the image is there and listed
 std::string FrameRecorder::write(const Slot& slot) {
-  const int type = slot.image.format == UNISIM_PIXEL_GRAY8 ? CV_8UC1 : CV_8UC3;
-  const cv::Mat view(slot.image.height, slot.image.width, type,
-                     const_cast<uint8_t*>(slot.image.data));
+  const cv::Mat view = drivers::image_mat(slot.image);
   const std::string name = name_of(written_);
   // The least compression: larger files, a third of the time.
   constexpr int kLevel = 1;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "drivers/common/size_text.hpp"
 #include "tools/common/failure.hpp"
 #include "tools/replay/inputs.hpp"
 
@@ -14,15 +15,12 @@ tools::Failure bad_mask(const Options& options, const std::string& what) {
   return {tools::kExitInput, options.mask + ": " + what};
 }
 
-std::string size_text(int32_t width, int32_t height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
-
 void check_size(const Options& options, const unisim_image& mask) {
   const auto size = frame_size(options);
   if (!size || (size->width == mask.width && size->height == mask.height)) return;
-  throw bad_mask(options, "the mask has " + size_text(mask.width, mask.height) +
-                              " pixels, the frames " + size_text(size->width, size->height) +
+  throw bad_mask(options, "the mask has " + drivers::size_text(mask.width, mask.height) +
+                              " pixels, the frames " +
+                              drivers::size_text(size->width, size->height) +
                               "; give a mask of their size");
 }
 

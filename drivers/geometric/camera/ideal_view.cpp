@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "drivers/common/image_mat.hpp"
 #include "drivers/geometric/camera/lens.hpp"
 
 namespace unisim::geometric {
@@ -29,12 +30,6 @@ double largest_move(const cv::Mat& x, const cv::Mat& y) {
   return most;
 }
 
-cv::Mat pixels_of(const unisim_image& image) {
-  const int type = image.format == UNISIM_PIXEL_BGR8 ? CV_8UC3 : CV_8UC1;
-  return {image.height, image.width, type, const_cast<uint8_t*>(image.data),
-          static_cast<size_t>(image.stride)};
-}
-
 }  // namespace
 
 std::string IdealView::open(const cv::Size& size, unisim_geometric_config* config) {
@@ -53,7 +48,7 @@ std::string IdealView::open(const cv::Size& size, unisim_geometric_config* confi
 
 void IdealView::hide_outside(const cv::Mat& x, const cv::Mat& y, unisim_geometric_config* config) {
   const cv::Mat seen = config->mask.data != nullptr
-                           ? pixels_of(config->mask)
+                           ? drivers::image_mat(config->mask)
                            : cv::Mat(x.size(), CV_8UC1, cv::Scalar(255)).clone();
   cv::Mat mask;
   cv::remap(seen, mask, x, y, cv::INTER_NEAREST, cv::BORDER_CONSTANT, cv::Scalar(0));
@@ -65,7 +60,7 @@ void IdealView::hide_outside(const cv::Mat& x, const cv::Mat& y, unisim_geometri
 }
 
 unisim_image IdealView::run(const unisim_image& image, bool gray) {
-  cv::Mat pixels = pixels_of(image);
+  cv::Mat pixels = drivers::image_mat(image);
   if (gray && image.format == UNISIM_PIXEL_BGR8) {
     cv::cvtColor(pixels, gray_, cv::COLOR_BGR2GRAY);
     pixels = gray_;

@@ -6,15 +6,13 @@
 #include <cstdio>
 #include <opencv2/calib3d.hpp>
 
+#include "drivers/common/size_text.hpp"
+
 namespace unisim::geometric {
 
 namespace {
 
 constexpr double kSteps = 1000;  // in which the turning point of a polynomial is looked for
-
-std::string size_text(int32_t width, int32_t height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
 
 cv::Point2d middle(const cv::Size& size) {
   return {size.width / 2.0 - 0.5, size.height / 2.0 - 0.5};
@@ -59,8 +57,8 @@ std::string lens_of(const unisim_geometric_config& config, const cv::Size& size,
   // Sides are whole pixels: the scaled height may be off by one.
   const double scale = static_cast<double>(size.width) / width;
   if (std::abs(height * scale - size.height) > 1.0) {
-    return "the camera was calibrated with " + size_text(width, height) +
-           " pixels, the images have " + size_text(size.width, size.height) +
+    return "the camera was calibrated with " + drivers::size_text(width, height) +
+           " pixels, the images have " + drivers::size_text(size.width, size.height) +
            ", another shape; calibrate with images of the same shape, uncropped";
   }
   out->focal_x = config.focal_px * scale;
@@ -71,7 +69,8 @@ std::string lens_of(const unisim_geometric_config& config, const cv::Size& size,
                       (config.principal_y_px + 0.5) * scale - 0.5};
   }
   if (out->principal.x > size.width - 1 || out->principal.y > size.height - 1) {
-    return "the principal point lies outside the images of " + size_text(size.width, size.height) +
+    return "the principal point lies outside the images of " +
+           drivers::size_text(size.width, size.height) +
            " pixels; it is in pixels from their corner";
   }
   out->model = config.distortion_model;

@@ -7,6 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "drivers/common/image_mat.hpp"
+
 namespace unisim::geometric {
 
 namespace {
@@ -44,11 +46,8 @@ double ImagePreparation::steady_gain() {
 }
 
 void ImagePreparation::run(const unisim_image& image, PreparedImage* out) {
-  const int type = image.format == UNISIM_PIXEL_BGR8 ? CV_8UC3 : CV_8UC1;
-  // cv::Mat has no read-only view; the pixels are only read.
-  const cv::Mat pixels(image.height, image.width, type, const_cast<uint8_t*>(image.data),
-                       static_cast<size_t>(image.stride));
-  if (type == CV_8UC3) {
+  const cv::Mat pixels = drivers::image_mat(image);
+  if (pixels.type() == CV_8UC3) {
     cv::cvtColor(pixels, gray_, cv::COLOR_BGR2GRAY);
   } else {
     pixels.copyTo(gray_);

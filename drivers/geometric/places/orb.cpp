@@ -7,6 +7,8 @@
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
+#include "drivers/common/image_mat.hpp"
+
 namespace unisim::geometric {
 
 namespace {
@@ -50,11 +52,7 @@ Orb::Orb()
                                  cv::ORB::HARRIS_SCORE, kPatch, kFast)) {}
 
 void Orb::open(const cv::Size& size, const unisim_image& look) {
-  if (look.data != nullptr) {
-    const cv::Mat seen(look.height, look.width, CV_8UC1, const_cast<uint8_t*>(look.data),
-                       static_cast<size_t>(look.stride));
-    look_ = seen != 0;
-  }
+  if (look.data != nullptr) look_ = drivers::image_mat(look) != 0;
   for (size_t s = 0; s < kOrbScales; ++s) {
     const double scale = std::pow(kStep, kOctaves[s]);
     levels_[s].create(cvRound(size.height / scale), cvRound(size.width / scale), CV_8UC1);

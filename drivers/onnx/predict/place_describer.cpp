@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "drivers/common/image_mat.hpp"
 #include "drivers/geometric/places/orb.hpp"
 #include "drivers/geometric/places/vlad.hpp"
 #include "drivers/predictor.h"
@@ -65,11 +66,8 @@ int PlaceDescriber::by_features(const unisim_image& image) {
         "the image is too small to find it again by features; give a model of kind descriptor";
     return UNISIM_PREDICTION_REJECTED;
   }
-  // cv::Mat has no read-only view; the pixels are only read.
-  const bool gray = image.format == UNISIM_PIXEL_GRAY8;
-  const cv::Mat seen(image.height, image.width, gray ? CV_8UC1 : CV_8UC3,
-                     const_cast<uint8_t*>(image.data), static_cast<size_t>(image.stride));
-  if (gray) {
+  const cv::Mat seen = drivers::image_mat(image);
+  if (image.format == UNISIM_PIXEL_GRAY8) {
     features_->gray = seen;
   } else {
     cv::cvtColor(seen, features_->gray, cv::COLOR_BGR2GRAY);

@@ -4,22 +4,19 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "drivers/common/image_mat.hpp"
+
 namespace unisim::onnx {
 namespace {
 
 // The fastest level: the next ones take twice the time for a tenth less.
 const std::vector<int> kFast = {cv::IMWRITE_PNG_COMPRESSION, 1};
 
-int mat_type(int32_t format) { return format == UNISIM_PIXEL_GRAY8 ? CV_8UC1 : CV_8UC3; }
-
 }  // namespace
 
 void PlaceImages::add(int32_t id, const unisim_image& image) {
-  // cv::Mat has no read-only view; the pixels are only read.
-  const cv::Mat seen(image.height, image.width, mat_type(image.format),
-                     const_cast<uint8_t*>(image.data), static_cast<size_t>(image.stride));
   std::vector<uint8_t> file;
-  cv::imencode(".png", seen, file, kFast);
+  cv::imencode(".png", drivers::image_mat(image), file, kFast);
   file.shrink_to_fit();
   const std::lock_guard<std::mutex> lock(mutex_);
   bytes_ += static_cast<int64_t>(file.size());

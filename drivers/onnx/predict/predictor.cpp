@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drivers/common/packed_copy.hpp"
+#include "drivers/common/size_text.hpp"
 #include "drivers/onnx/config.hpp"
 #include "drivers/onnx/creation.hpp"
 #include "drivers/onnx/error.hpp"
@@ -74,10 +75,6 @@ int guarded(unisim_predictor* predictor, Lane OnnxPredictor::* lane, Body&& body
   return UNISIM_PREDICTION_FAILED;
 }
 
-std::string size_text(const unisim_image& image) {
-  return std::to_string(image.width) + "x" + std::to_string(image.height);
-}
-
 /// What follows from the size of the images is made with the first one.
 void take_shape(OnnxPredictor* me, const unisim_image& image) {
   me->shape = image;
@@ -106,8 +103,9 @@ bool accept_image(OnnxPredictor* me, const unisim_image& image) {
   }
   if (me->pair == nullptr) take_shape(me, image);
   if (image.width != me->shape.width || image.height != me->shape.height) {
-    me->front.message = "image size changed from " + size_text(me->shape) + " to " +
-                        size_text(image) + "; frame left out";
+    me->front.message = "image size changed from " +
+                        drivers::size_text(me->shape.width, me->shape.height) + " to " +
+                        drivers::size_text(image.width, image.height) + "; frame left out";
     return false;
   }
   return true;

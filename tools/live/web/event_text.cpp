@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "drivers/common/image_mat.hpp"
 #include "tools/common/json_text.hpp"
 #include "tools/live/figures.hpp"
 #include "tools/replay/progress_line.hpp"
@@ -60,9 +61,7 @@ std::string base64(const std::vector<uint8_t>& bytes) {
 }
 
 void encode(const unisim_image& image, std::vector<uint8_t>* jpeg) {
-  const int type = image.format == UNISIM_PIXEL_GRAY8 ? CV_8UC1 : CV_8UC3;
-  const cv::Mat whole(image.height, image.width, type, const_cast<uint8_t*>(image.data),
-                      static_cast<size_t>(image.stride));
+  const cv::Mat whole = drivers::image_mat(image);
   cv::Mat shown = whole;
   if (image.width > kWidestImage) {
     const double scale = static_cast<double>(kWidestImage) / image.width;
