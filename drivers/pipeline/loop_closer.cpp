@@ -97,7 +97,6 @@ bool LoopCloser::due(int32_t id) const {
 
 void LoopCloser::look(const Described& keyframe) {
   unisim_places_question question{};
-  question.struct_size = sizeof question;
   question.id = keyframe.id;
   question.gap = config_.gap;
   question.spread = half_;
@@ -211,13 +210,20 @@ bool LoopCloser::ask(const std::vector<int32_t>& ids) {
 
 void LoopCloser::settle(const char* refused) {
   found_ = false;
-  if (refused == nullptr) reports_.count_loop();
+  if (refused == nullptr) reports_.count_loops(1);
   decide(refused == nullptr ? "loop" : refused, refused == nullptr);
+}
+
+/// The report on a sight.
+std::function<bool(const unisim_place_report&)> LoopCloser::told_of(const Sight& sight) {
+  return [sight](const unisim_place_report& report) {
+    return report.keyframe == sight.keyframe && report.candidate == sight.candidate;
+  };
 }
 
 void LoopCloser::decide(const char* reason, bool accepted) {
   for (const Sight& sight : closing_) {
-    reports_.decide(sight.keyframe, sight.candidate, accepted, reason);
+    reports_.decide(told_of(sight), accepted, reason);
   }
   closing_.clear();
 }
@@ -225,7 +231,7 @@ void LoopCloser::decide(const char* reason, bool accepted) {
 void LoopCloser::drop_unconfirmed(int32_t newest) {
   const auto over = [&](const Sight& sight) {
     if (newest - sight.keyframe <= kConfirmWithin) return false;
-    reports_.decide(sight.keyframe, sight.candidate, false, "no other keyframe said the same");
+    reports_.decide(told_of(sight), false, "no other keyframe said the same");
     return true;
   };
   sights_.erase(std::remove_if(sights_.begin(), sights_.end(), over), sights_.end());

@@ -5,12 +5,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "drivers/common/place_reports.hpp"
 #include "drivers/pipeline/loop_config.hpp"
-#include "drivers/pipeline/loop_reports.hpp"
 #include "drivers/pipeline/messages.hpp"
 #include "drivers/pipeline/place_book.hpp"
 #include "drivers/pipeline/two_views.hpp"
@@ -75,6 +76,7 @@ class LoopCloser {
   std::vector<int32_t> views_of(const Sight& first, const Sight& second) const;
   bool ask(const std::vector<int32_t>& ids);
   void drop_unconfirmed(int32_t newest);
+  static std::function<bool(const unisim_place_report&)> told_of(const Sight& sight);
   void decide(const char* reason, bool accepted);
 
   LoopConfig config_;
@@ -92,7 +94,7 @@ class LoopCloser {
   int32_t rest_until_ = 0;
   int32_t dimension_ = 0;
   std::string failure_;
-  LoopReports reports_;
+  drivers::PlaceReports reports_;
 };
 
 }  // namespace unisim::pipeline

@@ -4,27 +4,17 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <new>
 
 namespace unisim::pipeline {
 
 PlaceBook::PlaceBook(unisim_predictor* predictor, int32_t capacity, int32_t dimension)
-    : predictor_(predictor) {
-  unisim_places_config config;
-  if (unisim_places_config_init(&config, sizeof config) != UNISIM_OK) throw std::bad_alloc();
-  config.capacity = capacity;
-  config.dimension = dimension;
-  if (unisim_places_arena_size(&config, &arena_bytes_) != UNISIM_OK) throw std::bad_alloc();
-  arena_.reset(new char[arena_bytes_]);
-  if (unisim_places_create(&places_, &config, arena_.get(), arena_bytes_) != UNISIM_OK) {
-    throw std::bad_alloc();
-  }
+    : predictor_(predictor), places_(capacity, dimension) {
   ids_.reserve(static_cast<size_t>(capacity) + 1);
 }
 
 void PlaceBook::add(int32_t id, const int8_t* descriptor) {
   int32_t evicted = -1;
-  if (unisim_places_add(places_, id, descriptor, &evicted) != UNISIM_OK) {
+  if (!places_.add(id, descriptor, &evicted)) {
     predictor_->release_place(predictor_, id);
     return;
   }
@@ -39,20 +29,9 @@ void PlaceBook::release(int32_t id) {
 
 void PlaceBook::forget_before(int32_t first) {
   while (!ids_.empty() && ids_.front() < first) {
-    static_cast<void>(unisim_places_remove(places_, ids_.front()) == UNISIM_OK);
+    places_.remove(ids_.front());
     release(ids_.front());
   }
-}
-
-const std::vector<unisim_places_match>& PlaceBook::query(const unisim_places_question& question,
-                                                         int32_t most) {
-  matches_.resize(static_cast<size_t>(most));
-  int32_t count = 0;
-  if (unisim_places_query(places_, &question, matches_.data(), most, &count) != UNISIM_OK) {
-    count = 0;
-  }
-  matches_.resize(static_cast<size_t>(count));
-  return matches_;
 }
 
 std::vector<int32_t> PlaceBook::around(int32_t id, int32_t most, int32_t reach,
@@ -68,7 +47,7 @@ std::vector<int32_t> PlaceBook::around(int32_t id, int32_t most, int32_t reach,
 }
 
 int64_t PlaceBook::bytes() const {
-  return static_cast<int64_t>(arena_bytes_ + ids_.capacity() * sizeof(int32_t));
+  return places_.bytes() + static_cast<int64_t>(ids_.capacity() * sizeof(int32_t));
 }
 
 }  // namespace unisim::pipeline

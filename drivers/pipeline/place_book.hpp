@@ -3,25 +3,20 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
+#include "drivers/common/place_store.hpp"
 #include "drivers/predictor.h"
-#include "unisim/places.h"
 
 namespace unisim::pipeline {
 
-/// unisim/places.h in memory of its own. Tells the predictor which keyframe it need not keep.
+/// Tells the predictor which keyframe it need not keep.
 class PlaceBook {
  public:
   /// @param predictor with release_place(); borrowed
   /// @throws std::bad_alloc
   PlaceBook(unisim_predictor* predictor, int32_t capacity, int32_t dimension);
-  ~PlaceBook() { unisim_places_destroy(places_); }
-  PlaceBook(const PlaceBook&) = delete;
-  PlaceBook& operator=(const PlaceBook&) = delete;
 
   /// A keyframe that the predictor keeps. What makes room is released; or the keyframe itself where
   /// nothing may, or where its descriptor is none (all zero, or holds -128).
@@ -29,9 +24,11 @@ class PlaceBook {
   /// The map no longer holds keyframes before `first`.
   void forget_before(int32_t first);
 
-  /// The places most like a descriptor, best first; see unisim_places_question.
+  /// See drivers::PlaceStore.
   const std::vector<unisim_places_match>& query(const unisim_places_question& question,
-                                                int32_t most);
+                                                int32_t most) {
+    return places_.query(question, most);
+  }
 
   /// Up to `most` places nearest to `id`, not further than `reach` from it, ascending.
   /// @param newest none after it
@@ -44,11 +41,8 @@ class PlaceBook {
   void release(int32_t id);
 
   unisim_predictor* predictor_;
-  size_t arena_bytes_ = 0;
-  std::unique_ptr<char[]> arena_;
-  unisim_places* places_ = nullptr;
+  drivers::PlaceStore places_;
   std::vector<int32_t> ids_;  // that are kept, ascending
-  std::vector<unisim_places_match> matches_;
 };
 
 }  // namespace unisim::pipeline

@@ -91,13 +91,8 @@ WorldMove BackgroundAdjustment::move_of_newest(const State& state) {
         better.apply(adjustment_.problem().point(static_cast<int>(p)).position).z();
     if (depth > kMinDepth && depth_better > kMinDepth) ratios_.push_back(depth_better / depth);
   }
-  WorldMove move;
-  if (ratios_.size() >= kMinRatios) {
-    move.scale = drivers::median(&ratios_);
-  }
-  move.R = better.R.transpose() * now.R;
-  move.t = better.center() - move.scale * (move.R * now.center());
-  return move;
+  return WorldMove::between(now, better,
+                            ratios_.size() >= kMinRatios ? drivers::median(&ratios_) : 1);
 }
 
 void BackgroundAdjustment::move_rest(const WorldMove& move, State* state) {

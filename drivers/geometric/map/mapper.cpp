@@ -34,10 +34,6 @@ constexpr int kFinalRounds = 2;
 constexpr double kTurnRad = 0.017;       // turned on the spot: at least this angle ...
 constexpr double kTurnBaseline = 0.003;  // ... and at most this baseline over median depth
 
-double angle_between(const CameraPose& a, const CameraPose& b) {
-  return Eigen::AngleAxisd(Eigen::Matrix3d(a.R * b.R.transpose())).angle();
-}
-
 }  // namespace
 
 Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
@@ -323,14 +319,15 @@ void Mapper::note_motion(int32_t id) {
   if (last >= 0) {
     const CameraPose& before = state_.map.keyframe(last).pose;
     const double baseline = (pose.center() - before.center()).norm();
-    if (angle_between(pose, before) > kTurnRad && baseline < kTurnBaseline * state_.median_depth) {
+    if (angle_between(pose.R, before.R) > kTurnRad &&
+        baseline < kTurnBaseline * state_.median_depth) {
       ++counts_.rotation_only;
     }
   }
   for (int32_t k = state_.map.first_id(); k < id; ++k) {
     const Keyframe& first = state_.map.keyframe(k);
     if (!first.posed || first.segment != state_.segment) continue;
-    state_.intrinsics.note_rotation(angle_between(pose, first.pose));
+    state_.intrinsics.note_rotation(angle_between(pose.R, first.pose.R));
     break;
   }
 }

@@ -2,7 +2,7 @@
 // A similarity between two worlds, and what it does to poses.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "drivers/geometric/bundle/camera_model.hpp"
 
@@ -13,6 +13,15 @@ struct WorldMove {
   double scale = 1;
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
+
+  /// Takes a camera from one pose to another.
+  static WorldMove between(const CameraPose& from, const CameraPose& to, double scale) {
+    WorldMove out;
+    out.scale = scale;
+    out.R = to.R.transpose() * from.R;
+    out.t = to.center() - scale * (out.R * from.center());
+    return out;
+  }
 
   Eigen::Vector3d apply(const Eigen::Vector3d& point) const { return scale * (R * point) + t; }
 
@@ -32,5 +41,10 @@ struct WorldMove {
     return out;
   }
 };
+
+/// Angle between two rotations.
+inline double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  return Eigen::AngleAxisd(Eigen::Matrix3d(a.transpose() * b)).angle();
+}
 
 }  // namespace unisim::geometric

@@ -2,7 +2,6 @@
 // Keyframes found in another segment of the map, until enough of them say how the two lie.
 #include "drivers/geometric/places/bridge_book.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -24,10 +23,6 @@ constexpr double kAgreeScale = 0.2;      // log
 // A landmark of the present segment this near to a match is at the same depth, as a rule.
 constexpr float kNear = 6.0F;  // pixels at the reference diagonal
 constexpr size_t kMinRatios = 8;
-
-double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
-  return Eigen::AngleAxisd(Eigen::Matrix3d(a.transpose() * b)).angle();
-}
 
 /// Depth of the placed landmark that keyframe `id` sees nearest to `at`; 0: none within `reach`.
 double depth_near(const State& state, int32_t id, const cv::Point2f& at, float reach) {
@@ -51,8 +46,8 @@ double depth_near(const State& state, int32_t id, const cv::Point2f& at, float r
 
 BridgeBook::BridgeBook() {
   dropped_.reserve(bridges_.size());
-  ratios_.reserve(LoopBook::kMostMatches);
-  for (Bridge& bridge : bridges_) bridge.matches.reserve(LoopBook::kMostMatches);
+  ratios_.reserve(kMostLoopMatches);
+  for (Bridge& bridge : bridges_) bridge.matches.reserve(kMostLoopMatches);
 }
 
 void BridgeBook::add(const State& state, int32_t id, const PlaceFound& found) {
@@ -61,9 +56,7 @@ void BridgeBook::add(const State& state, int32_t id, const PlaceFound& found) {
   bridge.segment = state.segment;
   bridge.other = state.map.keyframe(found.keyframe).segment;
   bridge.found = found.pose;
-  const auto kept = std::min(found.matches.size(), LoopBook::kMostMatches);
-  bridge.matches.assign(found.matches.begin(),
-                        found.matches.begin() + static_cast<std::ptrdiff_t>(kept));
+  keep_matches(found, &bridge.matches);
 }
 
 bool BridgeBook::hoping() const {
@@ -97,11 +90,8 @@ bool BridgeBook::measure(const State& state, Bridge* bridge) {
   }
   if (ratios_.size() < kMinRatios) return false;
   bridge->log_scale = drivers::median(&ratios_);
-  const CameraPose& pose = state.map.keyframe(bridge->keyframe).pose;
-  WorldMove& move = bridge->move;
-  move.scale = std::exp(bridge->log_scale);
-  move.R = pose.R.transpose() * bridge->found.R;
-  move.t = pose.center() - move.scale * (move.R * bridge->found.center());
+  bridge->move = WorldMove::between(bridge->found, state.map.keyframe(bridge->keyframe).pose,
+                                    std::exp(bridge->log_scale));
   return true;
 }
 
@@ -153,7 +143,7 @@ bool BridgeBook::take(const State& state, SegmentJoin* out,
     out->move = mean_move(state, of);
     observations->clear();
     for (const Bridge& bridge : bridges_) {
-      if (with(bridge)) hand_over(state, bridge, observations);
+      if (with(bridge)) append_observations(state, bridge.keyframe, bridge.matches, observations);
     }
     sort_by_landmark(observations);
     for (Bridge& bridge : bridges_) bridge.other = -1;
@@ -162,18 +152,9 @@ bool BridgeBook::take(const State& state, SegmentJoin* out,
   return false;
 }
 
-void BridgeBook::hand_over(const State& state, const Bridge& bridge,
-                           std::vector<LoopObservation>* out) const {
-  for (const PatchMatch& match : bridge.matches) {
-    const Landmark& mark = state.map.landmark(match.landmark);
-    if (mark.generation != match.generation || mark.state != LandmarkState::kPlaced) continue;
-    out->push_back({match.landmark, match.generation, bridge.keyframe, match.point});
-  }
-}
-
 int64_t BridgeBook::bytes() const {
   return static_cast<int64_t>(sizeof(*this) +
-                              bridges_.size() * LoopBook::kMostMatches * sizeof(PatchMatch));
+                              bridges_.size() * kMostLoopMatches * sizeof(PatchMatch));
 }
 
 }  // namespace unisim::geometric

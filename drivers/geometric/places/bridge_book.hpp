@@ -48,7 +48,6 @@ class BridgeBook {
   bool measure(const State& state, Bridge* bridge);
   bool agree(const State& state, const Bridge& a, const Bridge& b) const;
   WorldMove mean_move(const State& state, const Bridge& of) const;
-  void hand_over(const State& state, const Bridge& bridge, std::vector<LoopObservation>* out) const;
 
   std::array<Bridge, 8> bridges_;
   size_t next_ = 0;

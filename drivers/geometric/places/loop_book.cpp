@@ -2,8 +2,9 @@
 // Loops found and not yet in the map.
 #include "drivers/geometric/places/loop_book.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
+
+#include "drivers/geometric/map/world_move.hpp"
 
 namespace unisim::geometric {
 
@@ -19,9 +20,24 @@ constexpr double kAgreeAngle = 0.045;    // rad
 
 }  // namespace
 
+void keep_matches(const PlaceFound& found, std::vector<PatchMatch>* kept) {
+  const auto count = std::min(found.matches.size(), kMostLoopMatches);
+  kept->assign(found.matches.begin(), found.matches.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+void append_observations(const State& state, int32_t keyframe,
+                         const std::vector<PatchMatch>& matches,
+                         std::vector<LoopObservation>* out) {
+  for (const PatchMatch& match : matches) {
+    const Landmark& mark = state.map.landmark(match.landmark);
+    if (mark.generation != match.generation || mark.state != LandmarkState::kPlaced) continue;
+    out->push_back({match.landmark, match.generation, keyframe, match.point});
+  }
+}
+
 LoopBook::LoopBook() {
   dropped_.reserve(loops_.size());
-  for (Loop& loop : loops_) loop.matches.reserve(kMostMatches);
+  for (Loop& loop : loops_) loop.matches.reserve(kMostLoopMatches);
 }
 
 /// The move of the state's world that puts each keyframe where it was found is the same for both.
@@ -29,12 +45,10 @@ bool LoopBook::agree(const State& state, const Loop& a, const Loop& b) {
   if (a.segment != b.segment || !state.map.holds(a.keyframe)) return false;
   const CameraPose& at_a = state.map.keyframe(a.keyframe).pose;
   const CameraPose& at_b = state.map.keyframe(b.keyframe).pose;
-  const Eigen::Matrix3d turn = a.found.R.transpose() * at_a.R;
-  const Eigen::Vector3d moved = turn * (at_b.center() - at_a.center()) + a.found.center();
-  const Eigen::Matrix3d turn_b = b.found.R.transpose() * at_b.R;
-  const double angle = Eigen::AngleAxisd(Eigen::Matrix3d(turn.transpose() * turn_b)).angle();
-  return (moved - b.found.center()).norm() < kAgreeDistance * state.median_depth &&
-         angle < kAgreeAngle;
+  const WorldMove by_a = WorldMove::between(at_a, a.found, 1);
+  const WorldMove by_b = WorldMove::between(at_b, b.found, 1);
+  const double off = (by_a.apply(at_b.center()) - b.found.center()).norm();
+  return off < kAgreeDistance * state.median_depth && angle_between(by_a.R, by_b.R) < kAgreeAngle;
 }
 
 void LoopBook::add(const State& state, int32_t id, const PlaceFound& found) {
@@ -44,9 +58,7 @@ void LoopBook::add(const State& state, int32_t id, const PlaceFound& found) {
   loop.counts = false;
   loop.taken = false;
   loop.found = found.pose;
-  loop.matches.assign(found.matches.begin(),
-                      found.matches.begin() + static_cast<std::ptrdiff_t>(
-                                                  std::min(found.matches.size(), kMostMatches)));
+  keep_matches(found, &loop.matches);
   for (Loop& other : loops_) {
     const bool recent =
         other.keyframe >= 0 && other.keyframe < id && id - other.keyframe <= kConfirmWithin;
@@ -87,17 +99,14 @@ void LoopBook::take(const State& state, std::vector<LoopObservation>* out) {
     if (loop.taken || !loop.counts || loop.segment != state.segment) continue;
     loop.taken = true;
     if (!state.map.holds(loop.keyframe)) continue;
-    for (const PatchMatch& match : loop.matches) {
-      const Landmark& mark = state.map.landmark(match.landmark);
-      if (mark.generation != match.generation || mark.state != LandmarkState::kPlaced) continue;
-      out->push_back({match.landmark, match.generation, loop.keyframe, match.point});
-    }
+    append_observations(state, loop.keyframe, loop.matches, out);
   }
   sort_by_landmark(out);
 }
 
 int64_t LoopBook::bytes() const {
-  return static_cast<int64_t>(sizeof(*this) + loops_.size() * kMostMatches * sizeof(PatchMatch));
+  return static_cast<int64_t>(sizeof(*this) +
+                              loops_.size() * kMostLoopMatches * sizeof(PatchMatch));
 }
 
 }  // namespace unisim::geometric

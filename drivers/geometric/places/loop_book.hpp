@@ -12,10 +12,16 @@
 
 namespace unisim::geometric {
 
+inline constexpr size_t kMostLoopMatches = 150;  ///< of one keyframe
+
+/// Those of a place's matches that are kept.
+void keep_matches(const PlaceFound& found, std::vector<PatchMatch>* kept);
+/// Matches of a keyframe with landmarks that are still there become observations.
+void append_observations(const State& state, int32_t keyframe,
+                         const std::vector<PatchMatch>& matches, std::vector<LoopObservation>* out);
+
 class LoopBook {
  public:
-  static constexpr size_t kMostMatches = 150;  ///< of one loop
-
   LoopBook();
 
   /// Keyframe `id` was found at `found.pose`; the state has it elsewhere, by the drift of the loop.

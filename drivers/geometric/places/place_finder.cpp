@@ -49,7 +49,7 @@ void PlaceFinder::add(const State& state) {
 
 bool PlaceFinder::find(const State& state, const DescriptorStore& store, const PatchStore& patches,
                        const PreparedImage& current, const Question& question, PlaceFound* out,
-                       std::vector<unisim_place_report>* log) {
+                       drivers::PlaceReports* log) {
   if (!describable_) return false;
   list_.forget_before(state.map.first_id());
   int32_t tried = 0;
@@ -73,7 +73,7 @@ bool PlaceFinder::find(const State& state, const DescriptorStore& store, const P
     } else {
       good = verify(state, patches, current, out, &report);
     }
-    log->push_back(report);
+    log->add(report);
     if (good) return true;
   }
   return false;

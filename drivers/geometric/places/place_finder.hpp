@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "drivers/common/place_reports.hpp"
 #include "drivers/geometric/places/patch_check.hpp"
 #include "drivers/geometric/places/place_list.hpp"
 #include "drivers/geometric/places/place_view.hpp"
@@ -38,10 +39,10 @@ class PlaceFinder {
     int32_t gap;    ///< keyframes between the image and a candidate, at least
     int32_t tries;  ///< candidates
   };
-  /// Looks for the keyframe seen last in the map. Appends what was tried to `log`.
+  /// Looks for the keyframe seen last in the map. Adds what was tried to `log`.
   bool find(const State& state, const DescriptorStore& store, const PatchStore& patches,
             const PreparedImage& current, const Question& question, PlaceFound* out,
-            std::vector<unisim_place_report>* log);
+            drivers::PlaceReports* log);
 
   Orb& orb() { return orb_; }
   int64_t bytes() const;

@@ -2,7 +2,6 @@
 // What the mapper has to do with places.
 #include "drivers/geometric/places/places.hpp"
 
-#include <algorithm>
 #include <limits>
 
 namespace unisim::geometric {
@@ -16,23 +15,18 @@ constexpr int32_t kJoinTries = 4;
 // Every second keyframe is a place, is looked for among the older ones, and costs the time for it;
 // the others describe their landmarks. One in between is looked for to confirm a loop.
 constexpr int32_t kEvery = 2;
-constexpr size_t kMostReports = 1024;
 }  // namespace
 
 Places::Places(const unisim_geometric_config& config, size_t tracks, PatchAtlas* atlas)
-    : config_(config), finder_(config, atlas), store_(config.max_landmarks, tracks) {
-  tried_.reserve(static_cast<size_t>(std::max(config.loop_tries, kLostTries)));
-  reports_.reserve(kMostReports);
-}
+    : config_(config), finder_(config, atlas), store_(config.max_landmarks, tracks) {}
 
 bool Places::relocalise(const Look& look, PlaceFound* out) {
   if (config_.places == 0) return false;
   finder_.see(look.gray, look.keyframe);
   const PlaceFinder::Question question = {PlaceFinder::Scope::kAll, 1, kLostTries};
   const bool found =
-      finder_.find(look.state, store_, look.patches, look.current, question, out, &tried_);
+      finder_.find(look.state, store_, look.patches, look.current, question, out, &reports_);
   relocalised_ += found ? 1 : 0;
-  note_tried();
   return found;
 }
 
@@ -56,19 +50,17 @@ void Places::try_loop(const Look& look) {
   const PlaceFinder::Question question = {PlaceFinder::Scope::kSegment, config_.loop_gap,
                                           config_.loop_tries};
   const bool found =
-      finder_.find(look.state, store_, look.patches, look.current, question, &found_, &tried_);
-  if (found) loops_.add(look.state, look.keyframe, found_);
-  loops_tried_ += static_cast<int32_t>(tried_.size());
-  loops_accepted_ += found ? 1 : 0;
-  note_tried();
+      finder_.find(look.state, store_, look.patches, look.current, question, &found_, &reports_);
+  if (!found) return;
+  loops_.add(look.state, look.keyframe, found_);
+  reports_.count_loops(1);
 }
 
 void Places::try_bridge(const Look& look) {
   const PlaceFinder::Question question = {PlaceFinder::Scope::kOtherSegments, 1, kJoinTries};
-  if (finder_.find(look.state, store_, look.patches, look.current, question, &found_, &tried_)) {
+  if (finder_.find(look.state, store_, look.patches, look.current, question, &found_, &reports_)) {
     bridges_.add(look.state, look.keyframe, found_);
   }
-  note_tried();
 }
 
 bool Places::take_join(const State& state, SegmentJoin* out,
@@ -80,7 +72,7 @@ bool Places::take_join(const State& state, SegmentJoin* out,
 
 void Places::drop_unconfirmed(const State& state, int32_t newest) {
   for (const int32_t keyframe : loops_.drop_unconfirmed(newest)) {
-    --loops_accepted_;
+    reports_.count_loops(-1);
     withdraw(keyframe, UNISIM_PLACE_LOOP);
   }
   for (const int32_t keyframe : bridges_.drop_old(state, newest)) {
@@ -89,19 +81,10 @@ void Places::drop_unconfirmed(const State& state, int32_t newest) {
 }
 
 void Places::withdraw(int32_t keyframe, int32_t asked) {
-  for (unisim_place_report& report : reports_) {
-    if (report.keyframe != keyframe || report.asked != asked || report.accepted == 0) continue;
-    report.accepted = 0;
-    report.reason = "no other keyframe said the same";
-  }
-}
-
-void Places::note_tried() {
-  if (reports_.size() + tried_.size() > kMostReports) {
-    reports_.erase(reports_.begin(), reports_.begin() + kMostReports / 2);
-  }
-  reports_.insert(reports_.end(), tried_.begin(), tried_.end());
-  tried_.clear();
+  const auto accepted = [&](const unisim_place_report& report) {
+    return report.keyframe == keyframe && report.asked == asked && report.accepted != 0;
+  };
+  reports_.decide(accepted, false, "no other keyframe said the same");
 }
 
 void Places::finish(const State& state) {
@@ -109,17 +92,13 @@ void Places::finish(const State& state) {
 }
 
 void Places::info(unisim_predictor_info* out) const {
-  out->places = reports_.data();
-  out->place_count = static_cast<int32_t>(reports_.size());
-  out->loops_tried = loops_tried_;
-  out->loops_accepted = loops_accepted_;
+  reports_.info(out);
   out->relocalised = relocalised_;
   out->joined = joined_;
 }
 
 int64_t Places::bytes() const {
-  return finder_.bytes() + store_.bytes() + loops_.bytes() + bridges_.bytes() +
-         static_cast<int64_t>(reports_.capacity() * sizeof(unisim_place_report));
+  return finder_.bytes() + store_.bytes() + loops_.bytes() + bridges_.bytes() + reports_.bytes();
 }
 
 }  // namespace unisim::geometric

@@ -45,7 +45,6 @@ class Places {
   void try_bridge(const Look& look);
   void drop_unconfirmed(const State& state, int32_t newest);
   void withdraw(int32_t keyframe, int32_t asked);
-  void note_tried();
 
   const unisim_geometric_config& config_;
   PlaceFinder finder_;
@@ -53,10 +52,7 @@ class Places {
   LoopBook loops_;
   BridgeBook bridges_;
   PlaceFound found_;
-  std::vector<unisim_place_report> tried_;    // in the last search
-  std::vector<unisim_place_report> reports_;  // the newest of the run
-  int32_t loops_tried_ = 0;
-  int32_t loops_accepted_ = 0;
+  drivers::PlaceReports reports_;
   int32_t relocalised_ = 0;
   int32_t joined_ = 0;
 };
