@@ -17,15 +17,14 @@ constexpr int32_t kLeastViews = 2;  // of each of two segments
 WideWindows::WideWindows(SessionClient* session) : session_(session) { kept_.reserve(kMostKept); }
 
 /// Nothing has left the sliding window, and no gap is left out by all windows.
-bool WideWindows::revisions_say_all() const {
-  unisim_session_info info{};
-  return session_->get_info(&info) == UNISIM_OK && info.retired_keyframes == 0 && !gap_;
+bool WideWindows::revisions_say_all(const unisim_session_info& info) const {
+  return info.retired_keyframes == 0 && !gap_;
 }
 
 bool WideWindows::wanted() const {
   unisim_session_info info{};
   if (session_->get_info(&info) != UNISIM_OK) return false;
-  return info.segments > 1 || !joins_.empty() || !revisions_say_all();
+  return info.segments > 1 || !joins_.empty() || !revisions_say_all(info);
 }
 
 /// -1 without a pose.
@@ -35,7 +34,8 @@ int32_t WideWindows::segment_of(int32_t keyframe_id) const {
 }
 
 /// Is the window the first to see two segments? The younger one's keyframes go into `join`.
-bool WideWindows::joins(const unisim_window_prediction& window, Join* join) const {
+bool WideWindows::joins(const unisim_window_prediction& window, const unisim_session_info& info,
+                        Join* join) const {
   int32_t oldest = std::numeric_limits<int32_t>::max();
   int32_t youngest = -1;
   for (int32_t k = 0; k < window.count; ++k) {
@@ -43,8 +43,7 @@ bool WideWindows::joins(const unisim_window_prediction& window, Join* join) cons
     if (segment >= 0) oldest = std::min(oldest, segment);
     youngest = std::max(youngest, segment);
   }
-  unisim_session_info info{};
-  if (youngest <= oldest || session_->get_info(&info) != UNISIM_OK) return false;
+  if (youngest <= oldest) return false;
   join->first = -1;
   for (int32_t id = info.first_keyframe; id <= info.last_posed; ++id) {
     if (segment_of(id) != youngest) continue;
@@ -56,12 +55,15 @@ bool WideWindows::joins(const unisim_window_prediction& window, Join* join) cons
 
 unisim_status WideWindows::take(const unisim_window_prediction& window, bool* taken) {
   *taken = false;
+  unisim_session_info info{};
+  const unisim_status known = session_->get_info(&info);
+  if (known != UNISIM_OK) return known;
   Join join{};
-  const bool joins_segments = joins(window, &join);
+  const bool joins_segments = joins(window, info, &join);
   const bool holds =
       joins_segments ||
       std::any_of(joins_.begin(), joins_.end(), [&](const Join& j) { return covers(window, j); });
-  if (!holds && revisions_say_all()) return UNISIM_OK;
+  if (!holds && revisions_say_all(info)) return UNISIM_OK;
   unisim_window_prediction measured = window;
   // However poor: nothing else ties the two together.
   if (holds) measured.center_sigma = std::min(window.center_sigma, session_->loop_gate());

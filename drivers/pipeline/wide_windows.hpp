@@ -44,9 +44,10 @@ class WideWindows {
     int32_t first;  // keyframes of the segment that was the younger one
     int32_t last;
   };
-  bool revisions_say_all() const;
+  bool revisions_say_all(const unisim_session_info& info) const;
   int32_t segment_of(int32_t keyframe_id) const;
-  bool joins(const unisim_window_prediction& window, Join* join) const;
+  bool joins(const unisim_window_prediction& window, const unisim_session_info& info,
+             Join* join) const;
   static bool covers(const unisim_window_prediction& window, const Join& join);
   unisim_status remove(int32_t submap_id);
   unisim_status drop_outdated(const unisim_window_prediction& newest);

@@ -43,6 +43,26 @@ Question frame_pose_question(std::int64_t frame) {
 
 Question place_question(std::int32_t id) { return {static_cast<std::int64_t>(Kind::kPlace), id}; }
 
+bool has_come(const Moment& moment, const Moment& now) {
+  return moment.keyframe <= now.keyframe && moment.frame <= now.frame &&
+         moment.finished <= now.finished;
+}
+
+RecordedAnswer* due_answer(RecordedAnswers* answers, const Moment& now) {
+  RecordedAnswer* last_given = nullptr;
+  for (RecordedAnswer& answer : *answers) {
+    if (answer.status == UNISIM_PREDICTION_PENDING) continue;
+    if (answer.given) {
+      last_given = &answer;
+    } else if (has_come(answer.moment, now)) {
+      return &answer;
+    } else {
+      break;
+    }
+  }
+  return last_given;
+}
+
 bool RecordIndex::build(RecordReader* reader) {
   RecordRef record;
   AlignedBytes key;

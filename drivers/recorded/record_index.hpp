@@ -43,6 +43,10 @@ Question window_question(const std::int32_t* ids, std::int32_t count);
 Question frame_pose_question(std::int64_t frame);
 Question place_question(std::int32_t id);
 
+bool has_come(const Moment& moment, const Moment& now);
+/// The first answer not given yet whose moment has come, else the one given last; NULL: none.
+RecordedAnswer* due_answer(RecordedAnswers* answers, const Moment& now);
+
 struct RecordedRevision {
   Moment moment;
   std::int64_t token = 0;

@@ -67,27 +67,6 @@ int guarded(Recorded& recorded, Group& group, Function function) {
   }
 }
 
-bool has_come(const Moment& moment, const Moment& now) {
-  return moment.keyframe <= now.keyframe && moment.frame <= now.frame &&
-         moment.finished <= now.finished;
-}
-
-/// The first answer not given yet whose moment has come, else the one given last.
-RecordedAnswer* due_answer(RecordedAnswers* answers, const Moment& now) {
-  RecordedAnswer* last_given = nullptr;
-  for (RecordedAnswer& answer : *answers) {
-    if (answer.status == UNISIM_PREDICTION_PENDING) continue;
-    if (answer.given) {
-      last_given = &answer;
-    } else if (has_come(answer.moment, now)) {
-      return &answer;
-    } else {
-      break;
-    }
-  }
-  return last_given;
-}
-
 /// Reason stored with a rejected answer.
 int repeat_rejection(Recorded& recorded, Group& group, const RecordRef& record) {
   if (!recorded.reader.read_data(record, &recorded.scratch)) {

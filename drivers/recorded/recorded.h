@@ -66,7 +66,7 @@ UNISIM_API const char* unisim_predictor_origin(const unisim_predictor* predictor
 
 /** The predictor inside a recorder, or in recorders one in another; any other is itself. For
  * functions that one kind of predictor has beside its table. It stays the recorder's. */
-unisim_predictor* unisim_predictor_inside(unisim_predictor* predictor);
+UNISIM_API unisim_predictor* unisim_predictor_inside(unisim_predictor* predictor);
 
 /** Size of the images a recording was made from, which need not be there any more.
  *  @param predictor any predictor; through a recorder the one inside

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/bench/simulator/c_structs.hpp"
+
 namespace unisim::testing {
 namespace {
 
@@ -22,11 +24,6 @@ constexpr double kDepthNoise = 0.03;
 // Descriptors lose their likeness over so many metres, and over such a change of the direction.
 constexpr double kReach = 0.5;
 constexpr double kWide = 0.5;
-
-unisim_sim3 to_sim3(const RigidPose& pose) {
-  const Eigen::Quaterniond q(pose.R);
-  return {{q.x(), q.y(), q.z(), q.w()}, {pose.t.x(), pose.t.y(), pose.t.z()}, 1.0};
-}
 
 int32_t stands_for(int32_t id, const WalkPredictor::Twin& twin) {
   return id >= twin.from && id < twin.to ? id - twin.back : id;
@@ -140,10 +137,10 @@ void WalkPredictor::fill(const simulator::Prediction& prediction, Arrays* arrays
   arrays->depths = prediction.depth;
   arrays->poses.clear();
   arrays->maps.clear();
-  for (const RigidPose& pose : prediction.T_local_kf) arrays->poses.push_back(to_sim3(pose));
+  for (const RigidPose& pose : prediction.T_local_kf)
+    arrays->poses.push_back(simulator::to_c(pose));
   for (const simulator::DepthMap& depth : arrays->depths) {
-    arrays->maps.push_back(
-        {depth.data(), nullptr, simulator::kDepthWidth, simulator::kDepthHeight});
+    arrays->maps.push_back(simulator::to_c(depth));
   }
 }
 

@@ -2,10 +2,10 @@
 // unisim-bench lanes: what a predictor that takes long for its windows costs the live pose.
 #include "tools/bench/lanes/lanes_command.hpp"
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "drivers/common/median.hpp"
 #include "drivers/pipeline/pipeline.hpp"
 #include "tools/bench/lanes/timed_predictor.hpp"
 #include "tools/bench/times.hpp"
@@ -79,11 +79,6 @@ Json to_json(const RunTimes& times) {
           {"windows_dropped", times.dropped}, {"frames_dropped", times.frames_dropped}};
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 }  // namespace
 
 int lanes_command(const LanesSettings& settings) {
@@ -102,7 +97,7 @@ int lanes_command(const LanesSettings& settings) {
                 {"window_s", settings.window_s},
                 {"windows", settings.busy ? "computed here" : "computed elsewhere"},
                 {"runs", runs},
-                {"p95_over_instant", median(ratios)}},
+                {"p95_over_instant", drivers::median(&ratios)}},
                settings.json);
   return tools::kExitDone;
 }

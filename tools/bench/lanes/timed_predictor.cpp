@@ -5,6 +5,8 @@
 #include <chrono>
 #include <thread>
 
+#include "tools/bench/simulator/c_structs.hpp"
+
 namespace unisim::bench {
 
 namespace {
@@ -14,11 +16,6 @@ void compute_for(double seconds) {
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
   while (Clock::now() < end) {
   }
-}
-
-unisim_sim3 to_sim3(const simulator::RigidPose& pose) {
-  const Eigen::Quaterniond q(pose.R);
-  return {{q.x(), q.y(), q.z(), q.w()}, {pose.t.x(), pose.t.y(), pose.t.z()}, 1.0};
 }
 
 }  // namespace
@@ -58,11 +55,10 @@ void TimedPredictor::fill(Arrays* arrays) {
   arrays->poses.clear();
   arrays->maps.clear();
   for (const simulator::RigidPose& pose : arrays->prediction.T_local_kf) {
-    arrays->poses.push_back(to_sim3(pose));
+    arrays->poses.push_back(simulator::to_c(pose));
   }
   for (const simulator::DepthMap& depth : arrays->prediction.depth) {
-    arrays->maps.push_back(
-        {depth.data(), nullptr, simulator::kDepthWidth, simulator::kDepthHeight});
+    arrays->maps.push_back(simulator::to_c(depth));
   }
 }
 

@@ -2,27 +2,21 @@
 // A session with its arena that takes simulated predictions.
 #include "tools/bench/walk/walk_session.hpp"
 
-#include <Eigen/Geometry>
 #include <string>
 
+#include "tools/bench/simulator/c_structs.hpp"
 #include "tools/common/failure.hpp"
 
 namespace unisim::bench {
+
+using simulator::to_c;
+
 namespace {
 
 constexpr int64_t kKeyframePeriodNs = 166666667;
 
 // Small enough for the full weight: all simulated predictions are equally good.
 constexpr double kCenterSigma = 0.0005;
-
-unisim_sim3 to_c(const simulator::RigidPose& T) {
-  const Eigen::Quaterniond q(T.R);
-  return {{q.x(), q.y(), q.z(), q.w()}, {T.t.x(), T.t.y(), T.t.z()}, 1.0};
-}
-
-unisim_depth_map to_c(const simulator::DepthMap& depth) {
-  return {depth.data(), nullptr, simulator::kDepthWidth, simulator::kDepthHeight};
-}
 
 size_t depth_bytes_of(const unisim_config& config) {
   constexpr size_t kMostParts = 32;
