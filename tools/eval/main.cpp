@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "drivers/sequence/folder.hpp"
 #include "tools/common/command_line.hpp"
 #include "tools/common/failure.hpp"
 #include "tools/common/output.hpp"
@@ -17,6 +18,7 @@ namespace unisim::eval {
 namespace {
 
 constexpr const char* kName = "unisim-eval";
+constexpr double kVoxel = 0.01;  // metres, unless given, where the truth is made of depth images
 constexpr const char* kRollOpen =
     "the positions lie on a straight line: the turn about it is not known, the error does not "
     "depend on it";
@@ -27,6 +29,11 @@ struct Arguments {
   Alignment alignment = Alignment::kSim3;
   double max_dt_s = 0.02;
   double max_distance = 0;
+  double voxel = -1;  // below 0: not given
+  DepthRequest depth;
+  TruthOptions truth;
+  std::string trajectory, write_truth;
+  std::vector<double> intrinsics;
   RpeStep step;
   bool json = false;
 };
@@ -97,27 +104,91 @@ int run_rpe(const Arguments& arguments) {
   return tools::kExitDone;
 }
 
-int run_cloud(const Arguments& arguments) {
+// A line leaves the turn of a cloud open.
+Similarity cloud_alignment(const Trajectory& truth, const Trajectory& estimate, double max_dt_s) {
+  const Similarity T_truth_estimate =
+      absolute_trajectory_error(truth, estimate, Alignment::kSim3, max_dt_s).T_truth_estimate;
+  if (T_truth_estimate.roll_open) {
+    throw InputError(estimate.name +
+                     ": on a straight line: the turn of the cloud about it is not known; give "
+                     "trajectories with a bend");
+  }
+  return T_truth_estimate;
+}
+
+// The cloud to compare with, and how the estimate comes to lie beside it.
+struct CloudTruth {
+  Cloud cloud;
   Similarity T_truth_estimate;
+  double voxel = 0;
+  Json made = nullptr;  // how, where it is from depth images
   Json notes = Json::array();
+};
+
+CloudTruth read_truth(const Arguments& arguments) {
+  CloudTruth truth;
   if (!arguments.trajectories.empty()) {
     const Pair pair = read_pair(arguments.trajectories[0], arguments.trajectories[1]);
-    notes = pair.notes;
-    T_truth_estimate =
-        absolute_trajectory_error(pair.truth, pair.estimate, Alignment::kSim3, arguments.max_dt_s)
-            .T_truth_estimate;
-    if (T_truth_estimate.roll_open) {
-      throw InputError(arguments.trajectories[1] +
-                       ": on a straight line: the turn of the cloud about it is not known; give "
-                       "trajectories with a bend");
-    }
+    truth.notes = pair.notes;
+    truth.T_truth_estimate = cloud_alignment(pair.truth, pair.estimate, arguments.max_dt_s);
   }
-  const Cloud truth = read_ply(arguments.ground_truth);
-  const Cloud estimate = read_ply(arguments.estimate);
+  truth.cloud = read_ply(arguments.ground_truth);
+  truth.voxel = std::max(arguments.voxel, 0.0);
+  if (truth.voxel > 0) truth.cloud = thinned(truth.cloud, &truth.voxel);
+  return truth;
+}
+
+CloudTruth make_truth(const Arguments& arguments) {
+  CloudTruth truth;
+  DepthRequest request = arguments.depth;
+  request.path = arguments.ground_truth;
+  if (!arguments.intrinsics.empty()) {
+    const std::vector<double>& given = arguments.intrinsics;
+    request.camera = {given[0], given[1], given[2], given[3], 0.0};
+  }
+  const DepthImages found = find_depth_images(request);
+  for (const std::string& line : found.notes) note(line, &truth.notes);
+  TruthOptions options = arguments.truth;
+  options.voxel = arguments.voxel > 0 ? arguments.voxel : kVoxel;
+  if (!arguments.trajectory.empty()) {
+    const Trajectory estimate = read_trajectory(arguments.trajectory);
+    for (const std::string& line : estimate.notes) note(line, &truth.notes);
+    truth.T_truth_estimate = cloud_alignment(found.truth, estimate, arguments.max_dt_s);
+    options.first_s = estimate.poses.front().time_s - arguments.max_dt_s;
+    options.last_s = estimate.poses.back().time_s + arguments.max_dt_s;
+  }
+  TruthCloud made = make_truth(found, options);
+  truth.made = truth_json(found, options, made);
+  truth.voxel = made.voxel;
+  truth.cloud = std::move(made.cloud);
+  truth.cloud.name = arguments.ground_truth;
+  return truth;
+}
+
+int run_cloud(const Arguments& arguments) {
+  const bool recording = sequence::is_folder(arguments.ground_truth);
+  if (recording && !arguments.trajectories.empty()) {
+    throw std::invalid_argument("--trajectories goes with a PLY file: give --trajectory EST");
+  }
+  if (!recording && !arguments.trajectory.empty()) {
+    throw std::invalid_argument("--trajectory goes with a recording: give --trajectories GT EST");
+  }
+  const CloudTruth truth = recording ? make_truth(arguments) : read_truth(arguments);
+  if (!arguments.write_truth.empty() && !write_ply(arguments.write_truth, truth.cloud)) {
+    throw tools::Failure(tools::kExitLimit, arguments.write_truth + ": cannot be written");
+  }
+  Cloud estimate = read_ply(arguments.estimate);
+  if (truth.voxel > 0) {
+    double side = truth.voxel / truth.T_truth_estimate.s;
+    estimate = thinned(estimate, &side);
+  }
   const CloudMetrics metrics =
-      compare_clouds(truth, estimate, T_truth_estimate, arguments.max_distance);
-  print(arguments, cloud_json(truth, estimate, T_truth_estimate, arguments.max_distance, metrics),
-        notes);
+      compare_clouds(truth.cloud, estimate, truth.T_truth_estimate, arguments.max_distance);
+  Json result = cloud_json(
+      {truth.cloud, estimate, truth.T_truth_estimate, arguments.max_distance, truth.voxel},
+      metrics);
+  if (!truth.made.is_null()) result["protocol"]["truth"] = truth.made;
+  print(arguments, result, truth.notes);
   return tools::kExitDone;
 }
 
@@ -172,6 +243,53 @@ void add_alignment(CLI::App* command, Arguments* arguments) {
              "alignment of the estimate (default sim3)");
 }
 
+void add_depth_options(CLI::App* cloud, Arguments* arguments) {
+  cloud->add_option("--trajectory", arguments->trajectory,
+                    "GT is a recording: align as these poses align with its true ones (sim3), and "
+                    "take depth images of their time");
+  cloud->add_option("--format", arguments->depth.format, "of the recording: tum, 7scenes, replica")
+      ->capture_default_str();
+  cloud->add_option("--ground-truth", arguments->depth.ground_truth,
+                    "poses of the depth images, instead of the recording's");
+  cloud
+      ->add_option("--intrinsics", arguments->intrinsics, "fx,fy,cx,cy of the depth images, pixels")
+      ->delimiter(',')
+      ->expected(4);
+  cloud
+      ->add_option("--depth-units", arguments->depth.units_per_metre,
+                   "of the depth images, a metre")
+      ->check(step_length, "above 0");
+  cloud->add_option("--every", arguments->truth.every, "take every n-th depth image")
+      ->check(CLI::Range(int64_t{1}, int64_t{1000000}));
+  cloud
+      ->add_option("--max-depth", arguments->truth.max_depth,
+                   "leave out farther pixels, metres (0: none)")
+      ->check(length, "0 or more");
+  cloud->add_option("--write-truth", arguments->write_truth, "keep the true cloud as PLY");
+}
+
+void add_cloud(CLI::App* app, Arguments* arguments) {
+  CLI::App* cloud = app->add_subcommand(
+      "cloud",
+      "accuracy, completeness and Chamfer distance of a PLY file against another, or against the "
+      "depth images of a recording");
+  add_files(cloud, arguments);
+  cloud
+      ->add_option("--trajectories", arguments->trajectories,
+                   "GT EST: align the cloud as these trajectories align (sim3)")
+      ->expected(2);
+  cloud
+      ->add_option("--max-distance", arguments->max_distance,
+                   "larger distances count as this (0: no limit)")
+      ->check(length, "0 or more");
+  cloud
+      ->add_option("--voxel", arguments->voxel,
+                   "thin both to one point per cube of this side, metres (default: 0.01 with a "
+                   "recording, else not)")
+      ->check(step_length, "above 0");
+  add_depth_options(cloud, arguments);
+}
+
 void add_commands(CLI::App* app, Arguments* arguments) {
   app->require_subcommand(1);
   CLI::App* ate =
@@ -191,17 +309,7 @@ void add_commands(CLI::App* app, Arguments* arguments) {
   add_choice(rpe, "--unit", units, &arguments->step.unit, "of the step (default frames)");
   rpe->add_flag("--all-pairs", arguments->step.all_pairs, "a step from every pose");
 
-  CLI::App* cloud =
-      app->add_subcommand("cloud", "accuracy, completeness and Chamfer distance of PLY files");
-  add_files(cloud, arguments);
-  cloud
-      ->add_option("--trajectories", arguments->trajectories,
-                   "GT EST: align the cloud as these trajectories align (sim3)")
-      ->expected(2);
-  cloud
-      ->add_option("--max-distance", arguments->max_distance,
-                   "larger distances count as this (0: no limit)")
-      ->check(length, "0 or more");
+  add_cloud(app, arguments);
 }
 
 int run(int argc, const char* const* argv) {

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <limits>
 
+#include "tools/common/voxel_grid.hpp"
 #include "tools/eval/trajectory.hpp"
 
 namespace unisim::eval {
@@ -184,6 +185,28 @@ Cloud read_ply(const std::string& path) {
   }
   if (cloud.points.empty()) refuse(path, "no points in it");
   return cloud;
+}
+
+bool write_ply(const std::string& path, const Cloud& cloud) {
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file << "ply\nformat binary_little_endian 1.0\nelement vertex " << cloud.points.size()
+       << "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  for (const Eigen::Vector3d& point : cloud.points) {
+    const Eigen::Vector3f rounded = point.cast<float>();
+    file.write(reinterpret_cast<const char*>(rounded.data()), sizeof(float) * 3);
+  }
+  file.close();
+  return static_cast<bool>(file);
+}
+
+Cloud thinned(const Cloud& cloud, double* side) {
+  tools::VoxelGrid grid(*side, kMostThinned);
+  for (const Eigen::Vector3d& p : cloud.points) grid.add({p.x(), p.y(), p.z()}, {}, 0.0, 1.0);
+  *side = grid.side();
+  Cloud thin{cloud.name, {}, cloud.skipped};
+  thin.points.reserve(grid.size());
+  for (size_t k = 0; k < grid.size(); ++k) thin.points.emplace_back(grid.point(k).position.data());
+  return thin;
 }
 
 }  // namespace unisim::eval

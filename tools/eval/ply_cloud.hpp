@@ -25,4 +25,13 @@ struct Cloud {
 /// and what follows the vertices are passed over. @throws InputError
 Cloud read_ply(const std::string& path);
 
+/// Writes x, y, z as binary PLY of floats. @return false when it cannot be written
+bool write_ply(const std::string& path, const Cloud& cloud);
+
+/// One point per cube with this side, the mean of those in it. Should these be more than
+/// kMostThinned, larger cubes. @param[in,out] side above 0
+Cloud thinned(const Cloud& cloud, double* side);
+
+inline constexpr size_t kMostThinned = 4U << 20U;
+
 }  // namespace unisim::eval

@@ -100,19 +100,18 @@ Json rpe_json(const Protocol& protocol, const RpeStep& step, const Rpe& rpe) {
   return out;
 }
 
-Json cloud_json(const Cloud& ground_truth, const Cloud& estimate,
-                const Similarity& T_truth_estimate, double max_distance,
-                const CloudMetrics& metrics) {
+Json cloud_json(const CloudProtocol& protocol, const CloudMetrics& metrics) {
   const auto side = [](const Cloud& cloud) -> Json {
     return {
         {"file", cloud.name}, {"points", cloud.points.size()}, {"skipped_points", cloud.skipped}};
   };
   Json out = {{"schema", 1}, {"metric", "cloud"}};
-  out["protocol"] = {{"ground_truth", side(ground_truth)},
-                     {"estimate", side(estimate)},
-                     {"T_truth_estimate", similarity_json(T_truth_estimate)},
+  out["protocol"] = {{"ground_truth", side(protocol.ground_truth)},
+                     {"estimate", side(protocol.estimate)},
+                     {"T_truth_estimate", similarity_json(protocol.T_truth_estimate)},
                      {"distance", "nearest neighbour, root mean square; chamfer: mean of the two"},
-                     {"max_distance", max_distance},
+                     {"voxel", protocol.voxel},
+                     {"max_distance", protocol.max_distance},
                      {"beyond_max_distance", metrics.beyond}};
   out["unit"] = "m";
   out["accuracy"] = metrics.accuracy.rmse;
@@ -123,13 +122,31 @@ Json cloud_json(const Cloud& ground_truth, const Cloud& estimate,
   return out;
 }
 
+Json truth_json(const DepthImages& found, const TruthOptions& options, const TruthCloud& truth) {
+  const DepthCamera& camera = found.camera;
+  return {{"format", found.format},
+          {"poses", found.truth.name},
+          {"camera", found.camera_from},
+          {"intrinsics", {camera.fx, camera.fy, camera.cx, camera.cy}},
+          {"k1", camera.k1},
+          {"units_per_metre", found.units_per_metre},
+          {"depth_images", truth.images},
+          {"depth_images_unposed", truth.unposed},
+          {"depth_images_unreadable", truth.unreadable},
+          {"every", options.every},
+          {"pixel_step", options.pixel_step},
+          {"max_depth", options.max_depth}};
+}
+
 std::string text_of(const Json& result) {
   std::string out;
   const Json& protocol = result["protocol"];
   out += tools::format("%-20s %s\n", "metric", result["metric"].get<std::string>().c_str());
   add_side("ground truth", protocol["ground_truth"], &out);
   add_side("estimate", protocol["estimate"], &out);
-  for (const auto& [name, value] : protocol.items()) {
+  Json lines = protocol.value("truth", Json::object());
+  lines.update(protocol);
+  for (const auto& [name, value] : lines.items()) {
     if (value.is_object()) continue;
     out += tools::format(
         "%-20s %s\n", name.c_str(),
