@@ -52,23 +52,23 @@ typedef struct unisim_lcm_publisher unisim_lcm_publisher;
  *  @param[out] message  one line on failure: what, where, what to do; may be NULL
  *  @param      capacity bytes of message
  *  @return NULL on failure */
-unisim_lcm_publisher* unisim_lcm_publisher_create(const unisim_lcm_publisher_config* config,
-                                                  int32_t* problem, char* message, size_t capacity);
+UNISIM_API unisim_lcm_publisher* unisim_lcm_publisher_create(
+    const unisim_lcm_publisher_config* config, int32_t* problem, char* message, size_t capacity);
 
 /** Give what is queued up to a second to go out, end the thread. NULL is fine. */
-void unisim_lcm_publisher_destroy(unisim_lcm_publisher* publisher);
+UNISIM_API void unisim_lcm_publisher_destroy(unisim_lcm_publisher* publisher);
 
 /** Wait up to a second for what is queued to go out: before the counters are read at the end.
  *  @param publisher live publisher */
-void unisim_lcm_publisher_flush(unisim_lcm_publisher* publisher);
+UNISIM_API void unisim_lcm_publisher_flush(unisim_lcm_publisher* publisher);
 
 /** UNISIM_POSE: the pose of a frame as it is known first.
  *  @param publisher live publisher
  *  @param timestamp_ns of the frame
  *  @param[in] T_world_cam its scale is not sent
  *  @return UNISIM_LCM_QUEUED, _REFUSED */
-int unisim_lcm_publish_pose(unisim_lcm_publisher* publisher, int64_t timestamp_ns,
-                            const unisim_sim3* T_world_cam);
+UNISIM_API int unisim_lcm_publish_pose(unisim_lcm_publisher* publisher, int64_t timestamp_ns,
+                                       const unisim_sim3* T_world_cam);
 
 /** UNISIM_KEYFRAME.
  *  @param publisher live publisher
@@ -76,8 +76,8 @@ int unisim_lcm_publish_pose(unisim_lcm_publisher* publisher, int64_t timestamp_n
  *  @param map_revision as unisim_get_info() gives it
  *  @param[in] covariance 49 values as unisim_get_covariance() gives them; NULL: not known
  *  @return UNISIM_LCM_QUEUED, _REFUSED */
-int unisim_lcm_publish_keyframe(unisim_lcm_publisher* publisher, const unisim_pose* pose,
-                                int32_t map_revision, const double covariance[49]);
+UNISIM_API int unisim_lcm_publish_keyframe(unisim_lcm_publisher* publisher, const unisim_pose* pose,
+                                           int32_t map_revision, const double covariance[49]);
 
 /** What unisim_lcm_publish_correction() says. */
 typedef struct unisim_lcm_correction {
@@ -95,8 +95,8 @@ typedef struct unisim_lcm_correction {
  *  @param publisher live publisher
  *  @param[in] correction see unisim_lcm_correction
  *  @return UNISIM_LCM_QUEUED, _REFUSED */
-int unisim_lcm_publish_correction(unisim_lcm_publisher* publisher,
-                                  const unisim_lcm_correction* correction);
+UNISIM_API int unisim_lcm_publish_correction(unisim_lcm_publisher* publisher,
+                                             const unisim_lcm_correction* correction);
 
 /** Keyframes in one message of UNISIM_TRAJECTORY. */
 #define UNISIM_LCM_CHUNK_POSES 512
@@ -109,9 +109,9 @@ int unisim_lcm_publish_correction(unisim_lcm_publisher* publisher,
  *  @param count 0..UNISIM_LCM_CHUNK_POSES
  *  @param chunk, chunks which of how many messages
  *  @return UNISIM_LCM_QUEUED, _REFUSED */
-int unisim_lcm_publish_trajectory(unisim_lcm_publisher* publisher, int64_t timestamp_ns,
-                                  int32_t map_revision, const unisim_pose* poses, int32_t count,
-                                  int32_t chunk, int32_t chunks);
+UNISIM_API int unisim_lcm_publish_trajectory(unisim_lcm_publisher* publisher, int64_t timestamp_ns,
+                                             int32_t map_revision, const unisim_pose* poses,
+                                             int32_t count, int32_t chunk, int32_t chunks);
 
 /** Stages in a status. */
 #define UNISIM_LCM_MAX_STAGES 16
@@ -150,7 +150,8 @@ typedef struct unisim_lcm_status {
  *  @param publisher live publisher
  *  @param[in] status see unisim_lcm_status
  *  @return UNISIM_LCM_QUEUED, _REFUSED */
-int unisim_lcm_publish_status(unisim_lcm_publisher* publisher, const unisim_lcm_status* status);
+UNISIM_API int unisim_lcm_publish_status(unisim_lcm_publisher* publisher,
+                                         const unisim_lcm_status* status);
 
 /** Points in one message of UNISIM_POINTS. */
 #define UNISIM_LCM_CHUNK_POINTS 4096
@@ -172,21 +173,22 @@ typedef struct unisim_lcm_points {
  *  @param publisher live publisher
  *  @param[in] points see unisim_lcm_points
  *  @return UNISIM_LCM_QUEUED, _REFUSED */
-int unisim_lcm_publish_points(unisim_lcm_publisher* publisher, const unisim_lcm_points* points);
+UNISIM_API int unisim_lcm_publish_points(unisim_lcm_publisher* publisher,
+                                         const unisim_lcm_points* points);
 
 /** UNISIM_IMAGE, as PIXEL_FORMAT_GRAY or _BGR.
  *  @param publisher live publisher
  *  @param timestamp_ns of the frame
  *  @param[in] image pixels are read during the call
  *  @return UNISIM_LCM_QUEUED, _REFUSED, _TOO_BIG */
-int unisim_lcm_publish_image(unisim_lcm_publisher* publisher, int64_t timestamp_ns,
-                             const unisim_image* image);
+UNISIM_API int unisim_lcm_publish_image(unisim_lcm_publisher* publisher, int64_t timestamp_ns,
+                                        const unisim_image* image);
 
 /** Take a request for the trajectory (unisim_lcm_publisher_config.requests). Never waits.
  *  @param publisher live publisher
  *  @param[out] first_id oldest keyframe wanted
  *  @return 1; 0 when there is none */
-int unisim_lcm_next_request(unisim_lcm_publisher* publisher, int32_t* first_id);
+UNISIM_API int unisim_lcm_next_request(unisim_lcm_publisher* publisher, int32_t* first_id);
 
 /** Counters of a publisher. */
 typedef struct unisim_lcm_publisher_counts {
@@ -201,8 +203,8 @@ typedef struct unisim_lcm_publisher_counts {
 
 /** @param publisher live publisher
  *  @param[out] counts filled as far as its struct_size reaches */
-void unisim_lcm_publisher_get_counts(const unisim_lcm_publisher* publisher,
-                                     unisim_lcm_publisher_counts* counts);
+UNISIM_API void unisim_lcm_publisher_get_counts(const unisim_lcm_publisher* publisher,
+                                                unisim_lcm_publisher_counts* counts);
 
 #ifdef __cplusplus
 }

@@ -11,6 +11,7 @@
 
 #include "drivers/lcm/problem.h"
 #include "drivers/source.h"
+#include "unisim/unisim.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -34,14 +35,14 @@ typedef struct unisim_lcm_subscriber_config {
  *  @param[out] message  one line on failure: what, where, what to do; may be NULL
  *  @param      capacity bytes of message
  *  @return NULL on failure; else free with its destroy() */
-unisim_source* unisim_lcm_subscribe(const unisim_lcm_subscriber_config* config, int32_t* problem,
-                                    char* message, size_t capacity);
+UNISIM_API unisim_source* unisim_lcm_subscribe(const unisim_lcm_subscriber_config* config,
+                                               int32_t* problem, char* message, size_t capacity);
 
 /** Things worth telling once: a receive buffer that large images do not fit.
  *  @param source of unisim_lcm_subscribe()
  *  @param i      0, 1, ...
  *  @return one line owned by the source, NULL past the last */
-const char* unisim_lcm_subscriber_note(const unisim_source* source, int32_t i);
+UNISIM_API const char* unisim_lcm_subscriber_note(const unisim_source* source, int32_t i);
 
 /** Counters of a subscriber. */
 typedef struct unisim_lcm_subscriber_counts {
@@ -55,8 +56,8 @@ typedef struct unisim_lcm_subscriber_counts {
 /** From any thread.
  *  @param source of unisim_lcm_subscribe()
  *  @param[out] counts filled as far as its struct_size reaches */
-void unisim_lcm_subscriber_get_counts(const unisim_source* source,
-                                      unisim_lcm_subscriber_counts* counts);
+UNISIM_API void unisim_lcm_subscriber_get_counts(const unisim_source* source,
+                                                 unisim_lcm_subscriber_counts* counts);
 
 #ifdef __cplusplus
 }

@@ -94,6 +94,16 @@ typedef struct unisim_pipeline_config {
   void (*on_state)(int32_t state, void* user);                  /**< it has changed (NULL) */
   void (*on_message)(const char* line, void* user);             /**< worth telling (NULL) */
   void* user;                                                   /**< of the callbacks (NULL) */
+
+  struct unisim_lcm_publisher*
+      lcm;                /**< the run is told over it (lcm_publisher.h), all channels but
+                               images and points; borrowed, used on the pipeline's thread:
+                               destroy it after unisim_pipeline_stop(); NULL: not (NULL) */
+  const char* lcm_folder; /**< copied; on its disk lie the poses of keyframes that have left the
+                               window, to be sent again after loops, some 200 bytes each; NULL: in
+                               memory (NULL) */
+  int32_t lcm_images;     /**< 1: each frame is sent too (0) */
+  int32_t lcm_points;     /**< points sent of each submap; 0: none (0) */
 } unisim_pipeline_config;
 
 /** A run. */
@@ -105,7 +115,8 @@ typedef struct unisim_pipeline unisim_pipeline;
 UNISIM_API void unisim_pipeline_config_init(unisim_pipeline_config* config, size_t struct_size);
 
 /** Make the session and start the thread.
- *  @param[in]  config   copied; its source and predictor are taken over
+ *  @param[in]  config   copied; its source and predictor are taken over. One of an older release,
+ *                       smaller, is filled up with defaults
  *  @param[out] message  on failure one line: what, where, what to do; may be NULL
  *  @param      capacity bytes of message
  *  @return NULL on failure; else free with unisim_pipeline_stop() */

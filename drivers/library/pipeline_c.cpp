@@ -4,17 +4,21 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "drivers/common/copy_out.hpp"
 #include "drivers/common/has_places.hpp"
 #include "drivers/common/owned.hpp"
 #include "drivers/geometric/geometric.h"
+#include "drivers/lcm/session_publisher.hpp"
 #include "drivers/library/pipeline.h"
 #include "drivers/pipeline/pipeline.hpp"
 #include "drivers/pipeline/session_defaults.hpp"
@@ -25,6 +29,7 @@ namespace {
 using unisim::drivers::copy_out;
 using unisim::drivers::PredictorPtr;
 using unisim::drivers::SourcePtr;
+using unisim::pipeline::Listener;
 using unisim::pipeline::LivePose;
 using unisim::pipeline::Outcome;
 using unisim::pipeline::Pipeline;
@@ -35,13 +40,29 @@ void write_line(const std::string& line, char* message, size_t capacity) {
   if (message != nullptr && capacity > 0) std::snprintf(message, capacity, "%s", line.c_str());
 }
 
+/// What the caller knows of the struct, the rest as by default. false: it is of no release, or sets
+/// what this one does not know.
+bool read_config(const unisim_pipeline_config* given, unisim_pipeline_config* config) {
+  constexpr size_t kFirstRelease = offsetof(unisim_pipeline_config, lcm);
+  if (given == nullptr || given->struct_size < kFirstRelease) return false;
+  const auto* bytes = reinterpret_cast<const unsigned char*>(given);
+  for (size_t i = sizeof *config; i < given->struct_size; ++i) {
+    if (bytes[i] != 0) return false;
+  }
+  unisim_pipeline_config_init(config, sizeof *config);
+  std::memcpy(config, given, std::min<size_t>(given->struct_size, sizeof *config));
+  config->struct_size = sizeof *config;
+  return true;
+}
+
 }  // namespace
 
 /// The run, and what listens to it for the callbacks.
-struct unisim_pipeline : unisim::pipeline::Listener {
+struct unisim_pipeline : Listener {
   explicit unisim_pipeline(const unisim_pipeline_config& given) : config(given) {}
 
   Preparation prepare();
+  void listen_for_lcm(std::vector<Listener*>* listeners);
   void start();
   int wait(std::chrono::milliseconds time);
   int end();
@@ -57,6 +78,7 @@ struct unisim_pipeline : unisim::pipeline::Listener {
   unisim_pipeline_config config;
   SourcePtr source;
   PredictorPtr predictor;
+  std::unique_ptr<unisim::lcm::SessionPublisher> publisher;  // NULL: not told over LCM
   std::unique_ptr<Pipeline> run;
   std::atomic<bool> stop{false};
   std::thread thread;
@@ -102,15 +124,33 @@ Preparation unisim_pipeline::prepare() {
     session.max_keyframes = unisim::pipeline::keyframe_capacity(
         session, -1, options.keyframes, session.max_keyframes, places ? options.loops.places : 0);
   }
-  run = std::make_unique<Pipeline>(options, source.get(), predictor.get(), session,
-                                   std::vector<Listener*>{this}, &stop);
+  if (config.lcm_points < 0) {
+    return {Answer::kBadConfiguration,
+            "pipeline: lcm_points is " + std::to_string(config.lcm_points) + ", give 0 or more"};
+  }
+  std::vector<Listener*> listeners{this};
+  listen_for_lcm(&listeners);
+  run =
+      std::make_unique<Pipeline>(options, source.get(), predictor.get(), session, listeners, &stop);
+  if (publisher != nullptr) publisher->attach(run.get());
   return run->prepare();
+}
+
+void unisim_pipeline::listen_for_lcm(std::vector<Listener*>* listeners) {
+  if (config.lcm == nullptr) return;
+  unisim::lcm::SessionPublisherOptions how;
+  how.images = config.lcm_images != 0;
+  how.points_per_submap = config.lcm_points;
+  if (config.lcm_folder != nullptr) how.folder = config.lcm_folder;
+  publisher = std::make_unique<unisim::lcm::SessionPublisher>(config.lcm, how);
+  listeners->push_back(publisher.get());
 }
 
 void unisim_pipeline::start() {
   thread = std::thread([this] {
     try {
       const auto& result = run->run();
+      if (publisher != nullptr) publisher->finish();
       if (result.source_held) static_cast<void>(source.release());  // it may still come back
       const bool failed =
           result.outcome != Outcome::kFinished && result.outcome != Outcome::kStopped;
@@ -223,7 +263,8 @@ void unisim_pipeline_config_init(unisim_pipeline_config* config, size_t struct_s
 
 unisim_pipeline* unisim_pipeline_start(const unisim_pipeline_config* config, char* message,
                                        size_t capacity) {
-  if (config == nullptr || config->struct_size < sizeof *config) {
+  unisim_pipeline_config known{};
+  if (!read_config(config, &known)) {
     write_line(
         "pipeline: struct_size is not one this library knows; call "
         "unisim_pipeline_config_init()",
@@ -231,10 +272,10 @@ unisim_pipeline* unisim_pipeline_start(const unisim_pipeline_config* config, cha
     return nullptr;
   }
   try {
-    auto pipeline = std::make_unique<unisim_pipeline>(*config);
-    pipeline->source.reset(config->source);
-    pipeline->predictor.reset(config->predictor);
-    if (config->source == nullptr) {
+    auto pipeline = std::make_unique<unisim_pipeline>(known);
+    pipeline->source.reset(known.source);
+    pipeline->predictor.reset(known.predictor);
+    if (known.source == nullptr) {
       write_line("pipeline: no source; open one with unisim_v4l2_open() or unisim_sequence_open()",
                  message, capacity);
       return nullptr;

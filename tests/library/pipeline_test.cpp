@@ -3,6 +3,7 @@
 #include "drivers/library/pipeline.h"
 
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <string>
 #include <thread>
@@ -171,11 +172,51 @@ TEST_CASE("what cannot be started is refused with one line") {
     CHECK(run.start() == nullptr);
     CHECK(std::string(run.message).find("struct_size") != std::string::npos);
   }
+  SECTION("a newer struct that sets what is not known here") {
+    struct {
+      unisim_pipeline_config known;
+      int64_t unknown;
+    } newer = {run.config, 1};
+    newer.known.struct_size = sizeof newer;
+    CHECK(unisim_pipeline_start(&newer.known, run.message, sizeof run.message) == nullptr);
+    CHECK(std::string(run.message).find("struct_size") != std::string::npos);
+  }
+  SECTION("a negative number of points") {
+    run.config.lcm_points = -1;
+    CHECK(run.start() == nullptr);
+    CHECK(std::string(run.message).find("lcm_points") != std::string::npos);
+  }
   SECTION("no room for the line") {
     run.config.source = nullptr;
     CHECK(unisim_pipeline_start(&run.config, nullptr, 0) == nullptr);
   }
   CHECK(unisim_pipeline_stop(nullptr) == UNISIM_PIPELINE_FINISHED);
+}
+
+TEST_CASE("configurations of an older and of a newer release start a run") {
+  CRun run;
+  struct {
+    unisim_pipeline_config known;
+    char unknown[16];
+  } given;
+  std::memset(&given, 0, sizeof given);
+  SECTION("older: what follows is not read") {
+    const size_t old_size = offsetof(unisim_pipeline_config, lcm);
+    std::memset(&given, 0x55, sizeof given);
+    std::memcpy(static_cast<void*>(&given), &run.config, old_size);
+    given.known.struct_size = static_cast<uint32_t>(old_size);
+  }
+  SECTION("newer: what follows is as before") {
+    given.known = run.config;
+    given.known.struct_size = sizeof given;
+  }
+  unisim_pipeline* const pipeline =
+      unisim_pipeline_start(&given.known, run.message, sizeof run.message);
+  INFO(run.message);
+  REQUIRE(pipeline != nullptr);
+  CHECK(wait_for_end(pipeline) == UNISIM_PIPELINE_FINISHED);
+  CHECK(run.told.keyframes.size() == 40);
+  unisim_pipeline_stop(pipeline);
 }
 
 TEST_CASE("structs of another size are filled as far as both sides know them") {

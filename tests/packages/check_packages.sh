@@ -57,6 +57,9 @@ if ls "$work"/made/unisim-tools_* >/dev/null 2>&1; then
   needs unisim-tools | grep -q libopencv-core || die "unisim-tools needs no OpenCV"
   needs unisim-tools | grep -q 'libunisim0' || die "unisim-tools needs no libunisim0"
 fi
+if dpkg-deb -c "$work"/made/libunisim-dev_*.deb | grep -q camera_lcm; then
+  needs libunisim-drivers0 | grep -q liblcm || die "libunisim-drivers0 needs no LCM"
+fi
 
 mkdir "$root/packages"
 cp "${packages[@]}" "$here/use_packages.sh" "$root/packages"

@@ -46,6 +46,16 @@ for way in find_package pkg-config; do
     quietly "$program"
   done
 done
+examples=/usr/share/unisim/examples
+if [ -e $examples/camera_lcm.c ]; then
+  for example in $examples/{camera_poses,own_source,own_predictor,camera_lcm}.c; do
+    # shellcheck disable=SC2046  # flags
+    quietly cc -std=c99 "$example" -o "$(basename "$example" .c)" $(pkg-config --cflags --libs unisim_drivers) -lm
+  done
+  quietly ./own_source
+  ! ./camera_lcm /dev/video77 "file://$PWD/poses.lcm?mode=w" >log 2>&1 || die "camera_lcm runs without a camera"
+  grep -q '^/dev/video77: ' log || die "camera_lcm says: $(cat log)"
+fi
 
 quietly dpkg --purge "${names[@]}"
 left=$(find /usr/bin /usr/lib /usr/include /usr/share -path /usr/share/mime -prune -o -iname '*unisim*' -print)
