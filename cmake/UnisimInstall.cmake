@@ -11,6 +11,7 @@ install(FILES
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/config.h
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/places.h
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/results.h
+  ${PROJECT_SOURCE_DIR}/capi/include/unisim/snapshot.h
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/types.h
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/unisim.h
   ${PROJECT_BINARY_DIR}/capi/include/unisim/version.h

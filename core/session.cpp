@@ -35,7 +35,8 @@ Session::Session(const SessionConfig& config, const SessionCapacity& capacity, A
       before_(arena.begin_part("poses before").take<Sim3>(capacity.graph.nodes)),
       watch_(map_),
       skeleton_(arena, capacity, map_, ties_, watch_),
-      refusals_(map_.config.log) {}
+      refusals_(map_.config.log),
+      first_of_run_(config.first_keyframe_id) {}
 
 Arena Session::measure(const SessionConfig& config) {
   Arena arena;

@@ -22,6 +22,7 @@
 #include "core/session_config.hpp"
 #include "core/skeleton/loop_watch.hpp"
 #include "core/skeleton/skeleton.hpp"
+#include "core/snapshot/archive.hpp"
 #include "core/solve/lm.hpp"
 
 namespace unisim {
@@ -136,6 +137,17 @@ class Session {
   Status optimize(int32_t max_iterations, OptimizeReport* report);
   Status covariance(int32_t keyframe, Mat7* covariance);
 
+  // ---- saving and loading (session/snapshot.cpp)
+  /// The map through a callback. It stays as it is; only the solver starts anew at the next
+  /// optimisation, as that of a session that loads the map does, so that both go on alike.
+  /// @return kOk; kIo when the callback says 0
+  Status save(ArchiveWrite write, void* context) const;
+  /// Into a session without keyframes. @return kOk; kInvalidArgument when it has some; else the
+  ///         session is as after reset() and load_report() says why: kIo, kData, kCapacity
+  Status load(ArchiveRead read, void* context);
+  /// Of the last load().
+  const LoadReport& load_report() const { return load_report_; }
+
   // ---- reading (session/read.cpp)
   bool broken() const { return map_.broken(); }
   const SessionConfig& config() const { return map_.config; }
@@ -205,6 +217,13 @@ class Session {
   void update_views(const SubmapUpdate& update, Submap* submap);
   void set_bridge_measurement(const SubmapView& view);
 
+  // session/snapshot.cpp
+  void visit(Archive* archive);
+  void visit_settings(Archive* archive);
+  void visit_session(Archive* archive);
+  bool counts_hold() const;
+  bool depth_holds() const;
+
   // session/optimize.cpp
   void describe_changes(OptimizeReport* report);
   void describe_bad_node(OptimizeReport* report) const;
@@ -225,13 +244,15 @@ class Session {
   SampledDepth sampled_;  // the map being compared or kept
   TieEdges ties_;
   Gauge gauge_;
-  LevenbergMarquardt solver_;
-  Span<Sim3> before_;  // poses before an optimisation, by node
+  mutable LevenbergMarquardt solver_;  // what it keeps is no part of the map
+  Span<Sim3> before_;                  // poses before an optimisation, by node
   LoopWatch watch_;
   Skeleton skeleton_;
 
   SessionCounts counts_;
   Refusals refusals_;
+  LoadReport load_report_;
+  int32_t first_of_run_;  // keyframe; older ones were loaded, with the times of another run
   int32_t next_segment_ = 0;
   bool window_came_ = false;      // since the last optimisation
   uint64_t solved_revision_ = 0;  // of the graph at the end of the last optimisation

@@ -68,6 +68,10 @@ struct FirstSize<unisim_session_info> {
   static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_session_info, arena_peak_bytes);
 };
 template <>
+struct FirstSize<unisim_load_report> {
+  static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_load_report, given);
+};
+template <>
 struct FirstSize<unisim_places_config> {
   static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_places_config, same_place);
 };

@@ -26,7 +26,9 @@ static_assert(UNISIM_ERR_INVALID_ARGUMENT == static_cast<int>(Status::kInvalidAr
                   UNISIM_ERR_NUMERICAL == static_cast<int>(Status::kNumerical) &&
                   UNISIM_ERR_INTERNAL == static_cast<int>(Status::kInternal) &&
                   UNISIM_ERR_ABI_MISMATCH == static_cast<int>(Status::kAbiMismatch) &&
-                  UNISIM_ERR_RETIRED == static_cast<int>(Status::kRetired),
+                  UNISIM_ERR_RETIRED == static_cast<int>(Status::kRetired) &&
+                  UNISIM_ERR_IO == static_cast<int>(Status::kIo) &&
+                  UNISIM_ERR_DATA == static_cast<int>(Status::kData),
               "status numbers");
 static_assert(UNISIM_MAX_VIEWS == unisim::kMaxViews &&
                   UNISIM_REQUEST_PAIR == unisim::kRequestPair &&
@@ -86,6 +88,10 @@ const char* unisim_status_string(unisim_status status) {
       return "struct_size mismatch";
     case UNISIM_ERR_RETIRED:
       return "no longer kept";
+    case UNISIM_ERR_IO:
+      return "reading or writing failed";
+    case UNISIM_ERR_DATA:
+      return "not valid data";
     default:
       return "unknown status";
   }

@@ -18,6 +18,12 @@ class Counter {
   }
   operator int32_t() const { return value_; }
 
+  /// Save or load.
+  template <class Archive>
+  void visit(Archive* archive) {
+    archive->index(&value_, 0, std::numeric_limits<int32_t>::max());
+  }
+
  private:
   int32_t value_ = 0;
 };

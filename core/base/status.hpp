@@ -18,6 +18,8 @@ enum class [[nodiscard]] Status : int32_t {
   kInternal = 6,         ///< broken invariant
   kAbiMismatch = 7,      ///< struct_size unknown (capi only)
   kRetired = 8,          ///< it was there, and has made room for newer ones
+  kIo = 9,               ///< the caller's stream failed or ended
+  kData = 10,            ///< the caller's stream is not what it should be
 };
 
 constexpr bool is_ok(Status status) { return status == Status::kOk; }

@@ -6,42 +6,15 @@
 
 #include "core/graph/relative_pose.hpp"
 #include "core/graph/scale_ratio.hpp"
+#include "core/graph/slots.hpp"
 
 namespace unisim {
-namespace {
-
 bool valid_weight(const EdgeWeight& weight) {
   return std::isfinite(weight.information) && weight.information > 0.0 &&
          std::isfinite(weight.multiplier) && weight.multiplier >= 0.0 &&
          (weight.kernel.kind == RobustKernelKind::kNone ||
           (std::isfinite(weight.kernel.delta) && weight.kernel.delta > 0.0));
 }
-
-// Slot for a new element: a freed one, else one more at the end. The caller has checked the
-// capacity.
-template <class T>
-int32_t take_slot(FixedVector<T>* items, FixedVector<int32_t>* free_slots) {
-  if (!free_slots->empty()) {
-    const int32_t slot = free_slots->back();
-    free_slots->pop_back();
-    return slot;
-  }
-  items->resize(items->size() + 1);
-  return items->size() - 1;
-}
-
-template <class T>
-int32_t room(const FixedVector<T>& items, const FixedVector<int32_t>& free_slots) {
-  return items.capacity() - items.size() + free_slots.size();
-}
-
-void give_back(FixedVector<int32_t>* free_slots, int32_t slot) {
-  const bool stored = free_slots->push_back(slot);
-  UNISIM_CHECK(stored);
-  static_cast<void>(stored);
-}
-
-}  // namespace
 
 Graph::Graph(Arena& arena, const GraphCapacity& capacity)
     : nodes_(arena, capacity.nodes),

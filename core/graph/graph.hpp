@@ -10,6 +10,7 @@
 #include "core/graph/chain.hpp"
 #include "core/graph/edge.hpp"
 #include "core/graph/rigid.hpp"
+#include "core/snapshot/archive.hpp"
 
 namespace unisim {
 
@@ -124,6 +125,21 @@ class Graph {
                                 (stamps.held > revision ? kNodeHeld : 0));
   }
 
+  // ---- saving and loading (graph_archive.cpp); into a graph that is empty
+  // Nodes and edges are visited by those they belong to: to load, each place is taken once, and the
+  // order in which places will be used again is kept, on which the order of all sums depends.
+  void visit_sizes(Archive* archive);
+  /// A node of this kind.
+  void visit_node(Archive* archive, NodeKind kind, int32_t* id);
+  /// An edge of this kind, or none (-1); its nodes are there.
+  void visit_edge(Archive* archive, FactorKind kind, int32_t* id);
+  /// The same from node a to node b.
+  void visit_edge(Archive* archive, FactorKind kind, int32_t a, int32_t b, int32_t* id);
+  /// Edges of this kind and origin, which belong to nobody.
+  void visit_edges(Archive* archive, FactorKind kind, EdgeOrigin origin);
+  /// Places that are free; all others have been visited.
+  void visit_free_places(Archive* archive);
+
  private:
   /// Revisions in which things happened to a node.
   struct NodeStamps {
@@ -146,6 +162,10 @@ class Graph {
   int32_t take_measurement(const Sim3& value);
   void release_edge(int32_t id);
   void structure_changed();
+  void expect_first_pair(Archive* archive, int32_t id);
+  void visit_measurements(Archive* archive, Edge* edge);
+  void visit_measurement(Archive* archive, int32_t* slot);
+  void visit_information(Archive* archive, int32_t* slot);
 
   FixedVector<Node> nodes_;
   FixedVector<int32_t> free_nodes_;
@@ -163,6 +183,9 @@ class Graph {
   uint64_t activity_revision_ = 1;
   uint64_t revision_ = 1;
 };
+
+/// Numbers finite, information and width of the kernel > 0, multiplier >= 0.
+bool valid_weight(const EdgeWeight& weight);
 
 /// u^2 of an edge at the present poses.
 double edge_norm_squared(const Graph& graph, const Edge& edge);

@@ -8,6 +8,7 @@
 #include "core/base/arena.hpp"
 #include "core/base/span.hpp"
 #include "core/map/depth_sampler.hpp"
+#include "core/snapshot/archive.hpp"
 
 namespace unisim {
 
@@ -28,6 +29,13 @@ class DepthArchive {
   void clear(int32_t keyframe) { place(keyframe).fill(0); }
   /// @param[out] depth kGrid.cells() samples, 0 = none; all 0 when nothing was put
   void get(int32_t keyframe, Span<float> depth) const;
+
+  /// Save or load what is kept of keyframes first .. end - 1.
+  void visit(Archive* archive, int32_t first, int32_t end) {
+    for (int32_t id = first; archive->ok() && id < end; ++id) {
+      for (uint16_t& code : place(id)) archive->value(&code);
+    }
+  }
 
  private:
   Span<uint16_t> place(int32_t keyframe) const {

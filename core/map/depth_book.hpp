@@ -70,6 +70,15 @@ class DepthBook {
     submaps_.rescale(submap, view, factor);
   }
 
+  /// Save or load; of the coarse depth, that of keyframes first .. end - 1.
+  void visit(Archive* archive, int32_t first, int32_t end) {
+    two_view_.visit(archive);
+    submaps_.visit(archive);
+    archive_.visit(archive, first, end);
+  }
+  /// Views over_submap() compares with; keyframe -1: none.
+  Span<const DepthStore::Source> submap_sources() const { return submaps_.sources(); }
+
  private:
   bool compare(Span<const float> map, Span<const float> kept, LogMedianRatio* ratio);
 

@@ -2,6 +2,9 @@
 // Sampled depth of the keyframes that coming windows may still need.
 #include "core/map/depth_store.hpp"
 
+#include <algorithm>
+#include <limits>
+
 namespace unisim {
 
 DepthStore::DepthStore(Arena& arena, int32_t slots, int32_t cells)
@@ -44,6 +47,37 @@ void DepthStore::rescale(int32_t submap, int32_t view, double factor) {
     for (float& depth : depth_.subspan(slot * cells_, cells_)) {
       depth = static_cast<float>(depth * factor);
     }
+  }
+}
+
+void DepthStore::visit(Archive* archive) {
+  const int32_t slots = sources_.size();
+  int32_t count = 0;
+  for (const Source& source : sources_) count += source.keyframe >= 0 ? 1 : 0;
+  const int32_t oldest = count == slots ? next_ : 0;
+  archive->index(&count, 0, std::numeric_limits<int32_t>::max());
+  const int32_t left_out = std::max(0, count - slots);
+  for (int32_t k = 0; archive->ok() && k < count; ++k) {
+    const int32_t slot = archive->loading() ? k - left_out : (oldest + k) % slots;
+    visit_map(archive, slot);
+  }
+  if (archive->loading() && slots > 0) next_ = (count - left_out) % slots;
+}
+
+/// @param slot < 0: the map is read and forgotten
+void DepthStore::visit_map(Archive* archive, int32_t slot) {
+  const bool kept = slot >= 0;
+  Source source;
+  if (!archive->loading()) source = sources_[slot];
+  archive->index(&source.keyframe, 0, std::numeric_limits<int32_t>::max());
+  archive->index(&source.submap, -1, std::numeric_limits<int32_t>::max());
+  archive->index(&source.view, -1, std::numeric_limits<int32_t>::max());
+  if (archive->loading() && kept) sources_[slot] = source;
+  for (int32_t cell = 0; archive->ok() && cell < cells_; ++cell) {
+    float none = 0.0F;
+    float* depth = kept ? &depth_[slot * cells_ + cell] : &none;
+    archive->value(depth);
+    archive->expect(*depth >= 0.0F);
   }
 }
 

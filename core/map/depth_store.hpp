@@ -6,6 +6,7 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/span.hpp"
+#include "core/snapshot/archive.hpp"
 
 namespace unisim {
 
@@ -34,8 +35,14 @@ class DepthStore {
   /// Multiply what is stored of a submap's view by `factor`.
   void rescale(int32_t submap, int32_t view, double factor);
 
+  /// Save or load, the oldest first; what there is no room for is left out.
+  void visit(Archive* archive);
+  /// Where each map comes from; keyframe -1: none is there.
+  Span<const Source> sources() const { return sources_; }
+
  private:
   int32_t slot_of(int32_t keyframe) const;
+  void visit_map(Archive* archive, int32_t slot);
 
   Span<Source> sources_;
   Span<float> depth_;

@@ -7,6 +7,7 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/span.hpp"
+#include "core/graph/graph.hpp"
 #include "core/lie/sim3.hpp"
 #include "core/map/tracking_state.hpp"
 
@@ -80,6 +81,9 @@ class KeyframeRing {
     if (keyframe.posed()) return id;
     return has(keyframe.held_from) ? keyframe.held_from : -1;
   }
+
+  /// Save or load, with the nodes (keyframe_ring_archive.cpp).
+  void visit(Archive* archive, Graph* graph);
 
  private:
   int32_t place(int32_t id) const {

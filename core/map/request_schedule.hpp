@@ -56,6 +56,12 @@ class RequestSchedule {
     return windows_.drop_before(keyframe, dropped);
   }
 
+  /// Save or load; the keyframes are there.
+  void visit(Archive* archive) {
+    archive->index(&closed_at_, 0, keyframes_.size());
+    windows_.visit(archive, keyframes_.size());
+  }
+
  private:
   int32_t settled_for_windows() const;
 

@@ -37,20 +37,31 @@ int32_t SubmapTable::slot_of(int32_t id) const {
   return slots_[slot].id == id ? slot : -1;
 }
 
-int32_t SubmapTable::append(bool is_loop, int32_t views) {
+/// Keyframe ids and no views yet; in order when its id is the largest.
+Submap& SubmapTable::take_slot(bool is_loop) {
   const int32_t slot = free_slots_.back();
   free_slots_.pop_back();
   Submap& submap = slots_[slot];
   submap = Submap();
-  submap.id = next_id_++;
   submap.is_loop = is_loop;
-  submap.count = views;
   submap.first_id = slot * views_each_;
-  submap.first_view = free_views_.back();
-  free_views_.pop_back();
-  for (int32_t k = 0; k < views; ++k) view(submap, k) = SubmapView();
+  submap.first_view = -1;
   static_cast<void>(order_.push_back(slot));
   ++(is_loop ? loops_ : windows_);
+  return submap;
+}
+
+void SubmapTable::take_views(Submap* submap) {
+  submap->first_view = free_views_.back();
+  free_views_.pop_back();
+  for (int32_t k = 0; k < submap->count; ++k) view(*submap, k) = SubmapView();
+}
+
+int32_t SubmapTable::append(bool is_loop, int32_t views) {
+  Submap& submap = take_slot(is_loop);
+  submap.id = next_id_++;
+  submap.count = views;
+  take_views(&submap);
   return submap.id;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/base/fixed_vector.hpp"
+#include "core/graph/graph.hpp"
 #include "core/lie/sim3.hpp"
 
 namespace unisim {
@@ -34,6 +35,8 @@ struct LoopHealth {
   int32_t wait = 0;        ///< suspended: optimisations between tries, doubled each time
   bool suspended = false;  ///< its edges contribute nothing
 };
+
+void visit_health(Archive* archive, LoopHealth* health);
 
 /// Keyframes first .. last.
 struct KeyframeRange {
@@ -153,8 +156,21 @@ class SubmapTable {
   void release_views(Submap* submap);
   void erase(int32_t id);
 
+  // ---- saving and loading (submap_table_archive.cpp)
+  /// Is there a window with this id, not retired, that has this view?
+  bool has_view(int32_t id, int32_t k) const;
+  /// Submaps, with the nodes that are their own; into a table that is empty.
+  void visit(Archive* archive, Graph* graph);
+  /// Edges between submaps; nodes are there.
+  void visit_shared(Archive* archive, Graph* graph);
+
  private:
   int32_t slot_of(int32_t id) const;
+  Submap& take_slot(bool is_loop);
+  void take_views(Submap* submap);
+  void visit_submap(Archive* archive, Graph* graph, Submap* submap);
+  void visit_keyframes(Archive* archive, const Submap& submap);
+  int32_t scale_of_pair(int32_t k) const;
 
   int32_t views_each_ = 0;
   int32_t most_windows_ = 0;

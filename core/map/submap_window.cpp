@@ -60,4 +60,24 @@ void WindowSchedule::remove(int32_t index) {
   open_.pop_back();
 }
 
+void WindowSchedule::visit(Archive* archive, int32_t keyframes) {
+  archive->index(&covered_, 0, keyframes);
+  archive->index(&next_first_, 0, covered_);
+  archive->index(&cut_, 0, keyframes);
+  archive->need("window_size", keyframes - next_first_ + 1, size_);
+  int32_t count = open_.size();
+  archive->index(&count, 0, keyframes);
+  archive->need(endless_ ? "window_submaps" : "max_submaps", endless_ ? count : cut_,
+                open_.capacity());
+  archive->expect(endless_ || count <= cut_);
+  if (!archive->ok()) return;
+  if (archive->loading()) open_.resize(count);
+  for (int32_t k = 0; archive->ok() && k < count; ++k) {
+    Window& window = open_[k];
+    archive->index(&window.first, 0, keyframes - 1);
+    archive->index(&window.count, 1, keyframes - window.first);
+    archive->need("window_size", window.count, size_);
+  }
+}
+
 }  // namespace unisim

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/base/fixed_vector.hpp"
+#include "core/snapshot/archive.hpp"
 
 namespace unisim {
 
@@ -48,6 +49,9 @@ class WindowSchedule {
   bool drop_before(int32_t keyframe, Window* dropped);
   /// The window is answered.
   void remove(int32_t index);
+
+  /// Save or load; `keyframes` are there.
+  void visit(Archive* archive, int32_t keyframes);
 
  private:
   bool append(const Window& window, Window* skipped);

@@ -131,4 +131,11 @@ void TieEdges::count_pairs() {
   }
 }
 
+void TieEdges::visit(Archive* archive) {
+  map_.submaps.visit_shared(archive, &map_.graph);
+  if (!archive->loading() || !archive->ok()) return;
+  count_pairs();
+  archive->need("window_overlap", pairs_, capacity_);
+}
+
 }  // namespace unisim

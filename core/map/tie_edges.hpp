@@ -26,6 +26,9 @@ class TieEdges {
 
   int32_t pairs() const { return pairs_; }
 
+  /// Save or load; submaps and nodes are there.
+  void visit(Archive* archive);
+
  private:
   bool take_pair(int32_t m, int32_t n);
   void add_scale(int32_t m, int32_t n);

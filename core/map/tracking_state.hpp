@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+
+#include "core/snapshot/archive.hpp"
 
 namespace unisim {
 
@@ -36,6 +39,14 @@ class TrackingState {
 
   Tracking state() const { return state_; }
   int32_t lost_events() const { return lost_events_; }
+
+  /// Save or load.
+  void visit(Archive* archive) {
+    constexpr int32_t kMost = std::numeric_limits<int32_t>::max() / 2;
+    archive->choice(&state_, Tracking::kRelocalised);
+    archive->index(&refused_in_a_row_, 0, kMost);
+    archive->index(&lost_events_, 0, kMost);
+  }
 
  private:
   int32_t lost_after_;

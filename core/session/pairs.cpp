@@ -25,8 +25,7 @@ double Session::quality_multiplier(double center_sigma) const {
 
 Status Session::add_keyframe(int64_t timestamp_ns, int32_t* id) {
   const int32_t newest = map_.keyframes.size() - 1;
-  if (newest >= map_.config.first_keyframe_id &&
-      timestamp_ns <= map_.keyframes[newest].timestamp_ns) {
+  if (newest >= first_of_run_ && timestamp_ns <= map_.keyframes[newest].timestamp_ns) {
     return Status::kInvalidArgument;
   }
   if ((map_.keyframes.full() && !map_.config.slides()) || !has_ids()) return Status::kCapacity;

@@ -44,4 +44,15 @@ void Refusals::add(PredictionKind kind, const Refusal& refusal) {
   line.send(log_, LogLevel::kWarning);
 }
 
+void Refusals::visit(Archive* archive) {
+  for (Refusal& refusal : newest_) {
+    archive->choice(&refusal.reason, RefusalReason::kLate);
+    archive->value(&refusal.first_keyframe);
+    archive->value(&refusal.last_keyframe);
+    archive->value(&refusal.value);
+    archive->value(&refusal.limit);
+  }
+  for (Counter& count : counts_) count.visit(archive);
+}
+
 }  // namespace unisim

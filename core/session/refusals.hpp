@@ -6,6 +6,7 @@
 
 #include "core/base/counter.hpp"
 #include "core/base/event_log.hpp"
+#include "core/snapshot/archive.hpp"
 
 namespace unisim {
 
@@ -43,6 +44,9 @@ class Refusals {
 
   const Refusal& newest(PredictionKind kind) const { return newest_[index(kind)]; }
   int32_t count(PredictionKind kind) const { return counts_[index(kind)]; }
+
+  /// Save or load.
+  void visit(Archive* archive);
 
  private:
   static int index(PredictionKind kind) { return static_cast<int>(kind); }

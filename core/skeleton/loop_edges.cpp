@@ -159,4 +159,40 @@ int32_t LoopEdges::weakest(Span<const int32_t> order) const {
   return weakest;
 }
 
+void LoopEdges::visit(Archive* archive) {
+  const int32_t next_submap = map_.submaps.next_id();
+  archive->index(&dropped_loops_, 0, next_submap);
+  int32_t count = edges_.size();
+  archive->index(&count, 0, next_submap);
+  archive->need("skeleton_capacity", count, edges_.capacity());
+  if (!archive->ok()) return;
+  if (archive->loading()) edges_.resize(count);
+  int64_t loops = dropped_loops_;
+  for (int32_t place = 0; archive->ok() && place < count; ++place) {
+    LoopEdge& loop = edges_[place];
+    if (archive->loading()) loop = LoopEdge();
+    bool in_use = loop.edge >= 0;
+    archive->flag(&in_use);
+    if (!in_use) continue;
+    archive->index(&loop.loop, 0, next_submap - 1);
+    archive->index(&loop.loops, 1, next_submap);
+    visit_health(archive, &loop.health);
+    loops += loop.loops;
+    if (!archive->loading()) continue;
+    loop.edge = 0;  // visit_edges() says which
+    watch_.take(loop.health);
+  }
+  archive->expect(loops <= next_submap);
+}
+
+void LoopEdges::visit_edges(Archive* archive) {
+  for (LoopEdge& loop : edges_) {
+    if (loop.edge < 0) continue;
+    map_.graph.visit_edge(archive, FactorKind::kChain, &loop.edge);
+    archive->expect(loop.edge >= 0);
+    if (!archive->ok()) return;
+    archive->expect(map_.graph.edge(loop.edge).origin == EdgeOrigin::kLoop);
+  }
+}
+
 }  // namespace unisim

@@ -32,6 +32,8 @@ class LoopEdges {
     }
     return true;
   }
+  /// Does this place hold an edge?
+  bool in_use(int32_t place) const { return place < edges_.size() && edges_[place].edge >= 0; }
   bool full() const { return edges_.full() && place_of(-1) < 0; }
   /// Place of an edge of the graph. -1: it is no loop's
   int32_t place_of(int32_t edge) const;
@@ -59,6 +61,12 @@ class LoopEdges {
   int32_t weakest(Span<const int32_t> order) const;
 
   int32_t dropped_loops() const { return dropped_loops_; }
+
+  // ---- saving and loading
+  /// Places and what is known of them.
+  void visit(Archive* archive);
+  /// Their edges; nodes are there.
+  void visit_edges(Archive* archive);
 
  private:
   int32_t fusible(int32_t a, int32_t b, const ChainLink& link, int32_t but) const;

@@ -42,6 +42,13 @@ class LoopWatch {
   void note_news() { news_ = true; }
   void news_solved() { news_ = false; }
 
+  /// Save or load; what is under watch has to be taken again.
+  void visit(Archive* archive) {
+    suspensions_.visit(archive);
+    returns_.visit(archive);
+    archive->flag(&news_);
+  }
+
  private:
   void judge(LoopHealth* health, int32_t loop, double norm, int64_t now);
   void come_back(LoopHealth* health, LogLine* line);

@@ -39,7 +39,12 @@ class Outbox {
 
   int32_t unread() const { return unread_; }  ///< lost so far
 
+  /// Save or load; the keyframes and submaps are there.
+  void visit(Archive* archive, const KeyframeRing& keyframes, int32_t next_submap);
+
  private:
+  static void visit_merge(Archive* archive, int32_t next_submap, Retired* merge);
+
   Span<Retired> merges_;
   int32_t offered_;  // older keyframes have been offered or lost
   int32_t made_ = 0;

@@ -24,16 +24,20 @@ Skeleton::Skeleton(Arena& arena, const SessionCapacity& capacity, Map& map, TieE
       order_(arena.take<int32_t>(capacity.live_windows > 0 ? capacity.graph.nodes : 0)),
       live_from_(map.config.first_keyframe_id) {}
 
-/// In time order, whatever the order in which they come.
 void Skeleton::add_window(int32_t submap) {
   if (map_.broken()) return;
+  put_in_order(submap);
+  while (!map_.broken() && windows_.size() > map_.config.window_submaps) retire_oldest();
+}
+
+/// In time order, whatever the order in which they come.
+void Skeleton::put_in_order(int32_t submap) {
   if (!windows_.push_back(submap)) map_.holds(Status::kInternal);
   for (int32_t k = windows_.size() - 1; k > 0; --k) {
     int32_t& older = windows_[k - 1];
     if (map_.submaps[older].window.first <= map_.submaps[windows_[k]].window.first) break;
     std::swap(older, windows_[k]);
   }
-  while (!map_.broken() && windows_.size() > map_.config.window_submaps) retire_oldest();
 }
 
 void Skeleton::retire_oldest() {

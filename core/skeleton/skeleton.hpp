@@ -95,8 +95,15 @@ class Skeleton {
   const LoopEdges& loop_edges() const { return loop_edges_; }
   int32_t unread() const { return outbox_.unread(); }
 
+  // ---- saving and loading (skeleton/skeleton_archive.cpp, skeleton/skeleton_check.cpp)
+  /// All but edges; keyframes and submaps are there. To load, both are checked with it.
+  void visit(Archive* archive);
+  /// Edges of the map, those between windows that share keyframes included.
+  void visit_edges(Archive* archive);
+
  private:
   // skeleton/retire.cpp
+  void put_in_order(int32_t submap);
   void retire_oldest();
   void retire_last();
   void retire_submap(int32_t m, int32_t n, int32_t end);
@@ -124,6 +131,24 @@ class Skeleton {
   void move_chains(int32_t a, int32_t b, const Sim3& T_a_b);
   void detach_loop_views(int32_t node);
   void attach_loop_views();
+
+  // skeleton/skeleton_archive.cpp
+  void find_live_submaps(Archive* archive);
+  void visit_nodes(Archive* archive);
+  void visit_view_edges(Archive* archive, const Submap& submap, SubmapView* view);
+
+  // skeleton/skeleton_check.cpp
+  bool is_carrier(int32_t node) const;
+  bool is_skeleton(int32_t node) const;
+  bool mark_carriers();
+  bool holds_together() const;
+  bool holds(const Submap& submap) const;
+  bool window_holds(const Submap& window) const;
+  bool loop_holds(const Submap& loop) const;
+  bool retired_holds(const Submap& submap) const;
+  bool holds(int32_t keyframe) const;
+  bool ends_at(const SubmapView& view, int32_t node) const;
+  bool chains_hold() const;
 
   // skeleton/make_room.cpp
   int32_t first_uncovered() const;

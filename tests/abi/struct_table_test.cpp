@@ -55,6 +55,14 @@ AT(unisim_config, window_submaps, 168);
 AT(unisim_config, skeleton_capacity, 172);
 AT(unisim_config, loop_gate, 176);
 
+SIZE(unisim_load_report, 72);
+AT(unisim_load_report, struct_size, 0);
+AT(unisim_load_report, problem, 4);
+AT(unisim_load_report, section, 8);
+AT(unisim_load_report, setting, 24);
+AT(unisim_load_report, needed, 56);
+AT(unisim_load_report, given, 64);
+
 SIZE(unisim_arena_part, 16);
 AT(unisim_arena_part, name, 0);
 AT(unisim_arena_part, bytes, 8);

@@ -116,10 +116,12 @@ Host::Host(const unisim_config& config) {
   REQUIRE(unisim_session_create(&session_, &config, arena_.get(), size) == UNISIM_OK);
 }
 
-int32_t Host::add_keyframe() {
+int32_t Host::add_keyframe() { return add_keyframe_at(1000 * keyframes_); }
+
+int32_t Host::add_keyframe_at(int64_t timestamp_ns) {
   unisim_keyframe keyframe = {};
   keyframe.struct_size = sizeof keyframe;
-  keyframe.timestamp_ns = 1000 * keyframes_;
+  keyframe.timestamp_ns = timestamp_ns;
   int32_t id = -1;
   REQUIRE(unisim_add_keyframe(session_, &keyframe, &id) == UNISIM_OK);
   REQUIRE(id == keyframes_);

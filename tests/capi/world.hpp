@@ -91,6 +91,9 @@ class Host {
   operator unisim_session*() const { return session_; }
 
   int32_t add_keyframe();
+  int32_t add_keyframe_at(int64_t timestamp_ns);
+  /// The session has been loaded with so many keyframes.
+  void go_on(int32_t keyframes) { keyframes_ = keyframes; }
   unisim_status add_pair(const Pair& pair);
   unisim_status reject_pair();
   int32_t add_submap(const Views& views);

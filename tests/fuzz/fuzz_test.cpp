@@ -1,45 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Random call sequences with garbage in them: never a crash, a broken session or a bad pose.
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/random_config.hpp"
 #include "tests/support/random_session.hpp"
 
 using namespace unisim::test;
 
 namespace {
-
-// Seeds that find something are kept in the range.
-constexpr uint32_t kFirstSeed = 1;
-constexpr uint32_t kSeeds = 60;
-
-/// UNISIM_FUZZ_SEEDS asks for a longer run by hand.
-uint32_t seeds() {
-  const char* text = std::getenv("UNISIM_FUZZ_SEEDS");
-  return text == nullptr ? kSeeds : static_cast<uint32_t>(std::strtoul(text, nullptr, 10));
-}
-
-unisim_config config_of(uint32_t seed) {
-  std::mt19937 random(seed);
-  unisim_config config;
-  REQUIRE(unisim_config_init(&config, sizeof config) == UNISIM_OK);
-  config.preset = random() % 4 == 0 ? UNISIM_PRESET_PAPER : UNISIM_PRESET_CONSISTENT;
-  config.window_size = 2 + static_cast<int32_t>(random() % 15);
-  config.window_overlap = static_cast<int32_t>(random()) % config.window_size;
-  config.window_overlap = std::abs(config.window_overlap);
-  config.max_keyframes = 2 + static_cast<int32_t>(random() % 150);
-  config.max_loops = static_cast<int32_t>(random() % 6);
-  config.max_submaps = random() % 3 == 0 ? 1 + static_cast<int32_t>(random() % 8) : 0;
-  config.depth_grid_width = 4 + static_cast<int32_t>(random() % 30);
-  config.depth_grid_height = 4 + static_cast<int32_t>(random() % 30);
-  config.disabled_factors = random() % 3 == 0 ? random() % 32 : 0;
-  config.lost_after = 1 + static_cast<int32_t>(random() % 4);
-  config.skeleton_capacity = random() % 2 == 0 ? 8 : 0;
-  if (random() % 2 == 0) config.window_submaps = 2 + static_cast<int32_t>(random() % 3);
-  return config;
-}
 
 bool is_pose(const unisim_sim3& T) {
   double norm = 0.0;
@@ -50,7 +20,7 @@ bool is_pose(const unisim_sim3& T) {
 }
 
 void run(uint32_t seed, double garbage) {
-  const unisim_config config = config_of(seed);
+  const unisim_config config = random_config(seed);
   size_t size = 0;
   REQUIRE(unisim_arena_size(&config, &size) == UNISIM_OK);
   std::unique_ptr<unsigned char[]> arena(new unsigned char[size]);
@@ -77,9 +47,9 @@ void run(uint32_t seed, double garbage) {
 }  // namespace
 
 TEST_CASE("random calls with good numbers") {
-  for (uint32_t seed = kFirstSeed; seed < kFirstSeed + seeds(); ++seed) run(seed, 0.0);
+  for (uint32_t seed = 1; seed < 1 + fuzz_seeds(); ++seed) run(seed, 0.0);
 }
 
 TEST_CASE("random calls with garbage in them") {
-  for (uint32_t seed = kFirstSeed; seed < kFirstSeed + seeds(); ++seed) run(seed, 0.05);
+  for (uint32_t seed = 1; seed < 1 + fuzz_seeds(); ++seed) run(seed, 0.05);
 }

@@ -36,6 +36,8 @@ typedef int32_t unisim_status;
 #define UNISIM_ERR_INTERNAL 6     /**< broken invariant; all later calls until reset say so */
 #define UNISIM_ERR_ABI_MISMATCH 7 /**< struct_size is not one this library knows */
 #define UNISIM_ERR_RETIRED 8      /**< was there, and has made room for newer ones */
+#define UNISIM_ERR_IO 9           /**< the caller's callback said that it could not */
+#define UNISIM_ERR_DATA 10        /**< bytes handed in are not what they should be */
 
 /** Fixed text for a status code; never NULL. */
 UNISIM_API const char* unisim_status_string(unisim_status status);

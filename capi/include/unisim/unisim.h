@@ -26,12 +26,14 @@
  *  - On any error the session is as it was before the call.
  *
  *  Include this file only: it brings types.h (statuses, plain values), config.h (configuration,
- * life cycle) and results.h (what comes out); data in, requests and unisim_optimize() are below. */
+ * life cycle), results.h (what comes out) and snapshot.h (maps that outlive the run); data in,
+ * requests and unisim_optimize() are below. */
 #ifndef UNISIM_UNISIM_H
 #define UNISIM_UNISIM_H
 
 #include "unisim/config.h"
 #include "unisim/results.h"
+#include "unisim/snapshot.h"
 #include "unisim/types.h"
 
 #ifdef __cplusplus

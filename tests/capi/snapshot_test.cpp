@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+// A map that outlives the run: loaded, it goes on as if it had not been interrupted.
+#include <cstring>
+
+#include "tests/capi/world.hpp"
+#include "tests/support/snapshot_bytes.hpp"
+
+using namespace unisim::test;
+
+namespace {
+
+constexpr Noise kNoise = {0.004, 0.002, 0.02, 0.3};
+
+unisim_config small_config(int32_t window_submaps) {
+  unisim_config config = small_windows(window_submaps);
+  config.skeleton_capacity = 8;
+  config.max_keyframes = 250;
+  return config;
+}
+
+/// A host with what the other has saved.
+struct Copy {
+  Copy(const Host& of, const unisim_config& config) : host(config) {
+    SnapshotBytes snapshot = save(of);
+    REQUIRE(load(host, &snapshot) == UNISIM_OK);
+    CHECK(snapshot.read == snapshot.bytes.size());
+    host.go_on(of.info().keyframes);
+  }
+  Host host;
+};
+
+bool same_poses(const Host& a, const Host& b) {
+  const int32_t keyframes = a.info().keyframes;
+  bool same = keyframes == b.info().keyframes;
+  for (int32_t id = 0; id < keyframes; ++id) {
+    unisim_pose p = {};
+    unisim_pose q = {};
+    p.struct_size = q.struct_size = sizeof p;
+    const unisim_status status = unisim_get_pose(a, id, &p);
+    same = same && unisim_get_pose(b, id, &q) == status && std::memcmp(&p, &q, sizeof p) == 0;
+  }
+  return same;
+}
+
+bool same_info(const Host& a, const Host& b) {
+  const unisim_session_info p = a.info();
+  const unisim_session_info q = b.info();
+  return std::memcmp(&p, &q, sizeof p) == 0;
+}
+
+int32_t loop_state(const Host& host, int32_t id) {
+  unisim_loop_info info = {};
+  info.struct_size = sizeof info;
+  REQUIRE(unisim_get_loop(host, id, &info) == UNISIM_OK);
+  return info.state;
+}
+
+}  // namespace
+
+TEST_CASE("a saved map goes on in another session with the same bits") {
+  const int32_t window_submaps = GENERATE(0, 2);
+  const int32_t at = GENERATE(1, 5, 21, 60, 150);
+  CAPTURE(window_submaps, at);
+  const unisim_config config = small_config(window_submaps);
+  World world(220, 3U, kNoise);
+  Host host(config);
+  feed(host, world, at);
+  World again = world;
+  Copy copy(host, config);
+  CHECK(same_poses(host, copy.host));
+  CHECK(same_info(host, copy.host));
+  feed(host, world, 60);
+  feed(copy.host, again, 60);
+  CHECK(same_poses(host, copy.host));
+  CHECK(same_info(host, copy.host));
+}
+
+TEST_CASE("a covariance can be asked for before and after the map was loaded") {
+  const unisim_config config = small_config(2);
+  World world(120, 3U, kNoise);
+  Host host(config);
+  feed(host, world, 100);
+  double ours[49];
+  double theirs[49];
+  {
+    Copy changed(host, config);
+    CHECK(unisim_get_covariance(changed.host, 95, theirs) == UNISIM_ERR_NOT_READY);
+  }
+  host.optimize();
+  Copy copy(host, config);
+  REQUIRE(unisim_get_covariance(host, 95, ours) == UNISIM_OK);
+  REQUIRE(unisim_get_covariance(copy.host, 95, theirs) == UNISIM_OK);
+  CHECK(std::memcmp(ours, theirs, sizeof ours) == 0);
+}
+
+TEST_CASE("saving leaves the map as it is") {
+  const unisim_config config = small_config(2);
+  World world(120, 3U, kNoise);
+  Host host(config);
+  feed(host, world, 100);
+  const SnapshotBytes before = save(host);
+  CHECK(save(host).bytes == before.bytes);
+  SnapshotBytes full;
+  full.limit = before.bytes.size() / 2;
+  CHECK(unisim_save_map(host, SnapshotBytes::write, &full) == UNISIM_ERR_IO);
+  CHECK(save(host).bytes == before.bytes);
+}
+
+TEST_CASE("a loop over the break joins what came after it to the map") {
+  const int32_t window_submaps = GENERATE(0, 2);
+  const unisim_config config = small_config(window_submaps);
+  World world(200, 3U, kNoise);
+  Host host(config);
+  feed(host, world, 100);
+  Copy copy(host, config);
+  Host& next = copy.host;
+  // Another run: its clock starts anew, and what was open is not answered any more.
+  CHECK(next.add_keyframe_at(5) == 100);
+  CHECK(next.reject_pair() == UNISIM_OK);
+  for (int32_t id = 101; id < 130; ++id) {
+    CHECK(next.add_keyframe_at(id) == id);
+    REQUIRE(next.add_pair(world.pair(id - 1)) == UNISIM_OK);
+    const unisim_request request = next.next(UNISIM_REQUEST_WINDOW);
+    if (request.kind != 0) REQUIRE(unisim_reject_request(next, &request) == UNISIM_OK);
+  }
+  CHECK(next.pose(129).segment == 1);
+  CHECK(next.info().segments == 2);
+  REQUIRE(next.add_loop(world.views(both(30, 120))) >= 0);
+  next.optimize();
+  CHECK(next.info().segments == 1);
+  CHECK(next.pose(129).segment == 0);
+  CHECK(next.pose(129).state == UNISIM_STATE_TRACKING);
+  CHECK(next.info().state == UNISIM_STATE_RELOCALISED);
+  CHECK(worst_position_error(next, world, 100) < 0.3);
+}
+
+TEST_CASE("within a run time goes on") {
+  const unisim_config config = small_config(2);
+  World world(40, 3U, kNoise);
+  Host host(config);
+  feed(host, world, 20);
+  Copy copy(host, config);
+  unisim_keyframe keyframe = {};
+  keyframe.struct_size = sizeof keyframe;
+  keyframe.timestamp_ns = 7;
+  int32_t id = -1;
+  CHECK(unisim_add_keyframe(copy.host, &keyframe, &id) == UNISIM_OK);
+  CHECK(id == 20);
+  CHECK(unisim_add_keyframe(copy.host, &keyframe, &id) == UNISIM_ERR_INVALID_ARGUMENT);
+}
+
+TEST_CASE("loops go on as they were: live, condensed, suspended, removed") {
+  const unisim_config config = small_config(2);
+  World world(220, 3U, kNoise);
+  Host host(config);
+  feed(host, world, 90);
+  const int32_t condensed = host.add_loop(world.views(both(10, 70)));
+  feed(host, world, 60);
+  const int32_t live = host.add_loop(world.views(both(30, 140)));
+  const int32_t removed = host.add_loop(world.views(both(50, 142)));
+  Views wrong = world.views(both(20, 144));
+  for (size_t k = 4; k < 8; ++k) wrong.T_submap_kf[k].t[0] += 4.0;
+  const int32_t suspended = host.add_loop(wrong);
+  for (int k = 0; k < 6; ++k) host.optimize(3);
+  REQUIRE(unisim_remove_loop(host, removed) == UNISIM_OK);
+  REQUIRE(loop_state(host, suspended) == UNISIM_LOOP_SUSPENDED);
+  World again = world;
+  Copy copy(host, config);
+  for (const int32_t loop : {condensed, live, removed, suspended}) {
+    CHECK(loop_state(copy.host, loop) == loop_state(host, loop));
+  }
+  CHECK(copy.host.info().suspended_loops == 1);
+  feed(host, world, 60);
+  feed(copy.host, again, 60);
+  CHECK(same_poses(host, copy.host));
+  CHECK(same_info(host, copy.host));
+}
+
+TEST_CASE("only a session without keyframes takes a map") {
+  const unisim_config config = small_config(2);
+  World world(40, 3U, kNoise);
+  Host host(config);
+  feed(host, world, 20);
+  SnapshotBytes snapshot = save(host);
+  CHECK(load(host, &snapshot) == UNISIM_ERR_INVALID_ARGUMENT);
+  CHECK(host.info().keyframes == 20);
+  REQUIRE(unisim_session_reset(host) == UNISIM_OK);
+  CHECK(load(host, &snapshot) == UNISIM_OK);
+  CHECK(host.info().keyframes == 20);
+}
+
+TEST_CASE("a session that is too small or another one says which number") {
+  World world(120, 3U, kNoise);
+  Host host(small_config(2));
+  feed(host, world, 100);
+  SnapshotBytes snapshot = save(host);
+  const auto refused = [&](const unisim_config& config) {
+    Host other(config);
+    CHECK(load(other, &snapshot) == UNISIM_ERR_CAPACITY);
+    CHECK(other.info().keyframes == 0);
+    return load_report(other);
+  };
+  unisim_config config = small_config(2);
+  config.skeleton_capacity = 4 + 4;
+  config.max_keyframes = 90;
+  unisim_load_report report = refused(config);
+  CHECK(report.problem == UNISIM_LOAD_CAPACITY);
+  CHECK(std::string(report.section) == "keyframe");
+  CHECK(std::string(report.setting) == "max_keyframes");
+  CHECK(report.needed == 100);
+  CHECK(report.given == 90);
+  config = small_config(2);
+  config.preset = UNISIM_PRESET_PAPER;
+  report = refused(config);
+  CHECK(report.problem == UNISIM_LOAD_SETTING);
+  CHECK(std::string(report.setting) == "preset");
+  config = small_config(0);
+  report = refused(config);
+  CHECK(report.problem == UNISIM_LOAD_SETTING);
+  CHECK(std::string(report.setting) == "window_submaps");
+  config = small_config(2);
+  config.window_size = 6;
+  report = refused(config);
+  CHECK(std::string(report.setting) == "window_size");
+  CHECK(report.needed == 8);
+  CHECK(report.given == 6);
+}
+
+TEST_CASE("a larger session takes the map") {
+  World world(200, 3U, kNoise);
+  Host host(small_config(2));
+  feed(host, world, 100);
+  unisim_config config = small_config(3);
+  config.max_keyframes = 400;
+  config.max_loops = 100;
+  config.window_size = 10;
+  config.skeleton_capacity = 20;
+  Copy copy(host, config);
+  CHECK(same_poses(host, copy.host));
+  feed(copy.host, world, 100);
+  CHECK(copy.host.info().keyframes == 200);
+}
+
+TEST_CASE("arguments of saving and loading") {
+  Host host(small_config(2));
+  SnapshotBytes bytes;
+  CHECK(unisim_save_map(nullptr, SnapshotBytes::write, &bytes) == UNISIM_ERR_INVALID_ARGUMENT);
+  CHECK(unisim_save_map(host, nullptr, &bytes) == UNISIM_ERR_INVALID_ARGUMENT);
+  CHECK(unisim_load_map(nullptr, SnapshotBytes::take, &bytes) == UNISIM_ERR_INVALID_ARGUMENT);
+  CHECK(unisim_load_map(host, nullptr, &bytes) == UNISIM_ERR_INVALID_ARGUMENT);
+  CHECK(unisim_get_load_report(host, nullptr) == UNISIM_ERR_INVALID_ARGUMENT);
+  unisim_load_report report = {};
+  CHECK(unisim_get_load_report(host, &report) == UNISIM_ERR_ABI_MISMATCH);
+  CHECK(load_report(host).problem == UNISIM_LOAD_OK);
+}
+
+TEST_CASE("a map without keyframes is a map") {
+  Host host(small_config(2));
+  Copy copy(host, small_config(2));
+  CHECK(same_info(host, copy.host));
+}
