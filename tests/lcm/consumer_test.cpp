@@ -3,24 +3,19 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <cstdlib>
 
 #include "drivers/pipeline/similarity.hpp"
 #include "tests/lcm/child.hpp"
 #include "tests/lcm/event_log.hpp"
 #include "tests/lcm/own_network.hpp"
 #include "tests/lcm/publisher_fixture.hpp"
+#include "tests/lcm/python_lcm.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"
 
 using namespace unisim::testing;
 
 namespace {
-
-std::string python() {
-  const char* own = std::getenv("UNISIM_LCM_PYTHON");
-  return own != nullptr ? own : UNISIM_PYTHON;
-}
 
 std::string position(const unisim_sim3& T) {
   char text[120];
@@ -91,16 +86,9 @@ TEST_CASE("the consumer in C does what README.md asks of one") {
 }
 
 TEST_CASE("the consumer in Python does what README.md asks of one") {
-  if (std::system((python() + " -c 'import lcm' 2> /dev/null").c_str()) != 0) {
-    WARN("skipped: no Python module lcm (pip install lcm; UNISIM_LCM_PYTHON names its Python)");
-    return;
-  }
-  UNISIM_SKIP_WITHOUT_NETWORK();
   const TempFolder folder;
-  const std::string make = std::string(UNISIM_LCM_GEN) + " --python --ppath " + folder.path() +
-                           " " + UNISIM_LCM_MESSAGES + "/*.lcm";
-  REQUIRE(std::system(make.c_str()) == 0);
-  setenv("PYTHONPATH", folder.path().c_str(), 1);
+  UNISIM_SKIP_WITHOUT_PYTHON_LCM(folder.path());
+  UNISIM_SKIP_WITHOUT_NETWORK();
   check_consumer({python(), UNISIM_LCM_EXAMPLES "/pose_consumer.py", "3"});
 }
 
