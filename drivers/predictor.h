@@ -9,13 +9,15 @@
  *
  *  Threads. Two groups of functions, in each of them one call at a time:
  *  - front: observe(), keyframe(), two_view(), frame_pose(), features(), place_descriptor(),
- *    message();
+ *    locate(), map_pose(), message();
  *  - back: multi_view(), next_revision(), next_wide_window(), release_place(), window_message().
  *  With concurrent_windows the groups run beside each other, on two threads; without it all calls
- *  come from one thread. While finish(), info() or destroy() runs, nothing else does. */
+ *  come from one thread. While finish(), info(), save_map(), load_map() or destroy() runs, nothing
+ *  else does. */
 #ifndef UNISIM_DRIVERS_PREDICTOR_H
 #define UNISIM_DRIVERS_PREDICTOR_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "drivers/image.h"
@@ -123,6 +125,29 @@ typedef struct unisim_place_report {
   const char* reason;    /**< static text */
 } unisim_place_report;
 
+/** Takes bytes of a map that is saved. @return 1, or 0: it could not */
+typedef int32_t (*unisim_map_write)(void* context, const void* bytes, size_t size);
+/** Gives the next `size` bytes of a saved map. @return 1, or 0: there are not so many */
+typedef int32_t (*unisim_map_read)(void* context, void* bytes, size_t size);
+
+/** Where in the map a frame was taken. */
+typedef struct unisim_location {
+  unisim_sim3 T_map_frame; /**< camera to the map of `segment`, scale 1 */
+  int32_t keyframe_id;     /**< keyframe of the map it was compared with */
+  int32_t segment;         /**< of that keyframe: see unisim_map_pose */
+  int32_t inliers;         /**< landmarks that look as they should from there */
+  int32_t in_view;         /**< of so many */
+  int32_t followed;        /**< 1: looked for where the frame before it was; 0: in the whole map */
+  int32_t reserved;        /**< 0 */
+} unisim_location;
+
+/** A keyframe as the predictor's own map has it. */
+typedef struct unisim_map_pose {
+  unisim_sim3 T_map_kf; /**< camera to map, scale 1 */
+  int32_t segment;      /**< poses of different segments have no common frame or unit */
+  int32_t reserved;     /**< 0 */
+} unisim_map_pose;
+
 /** Things worth knowing at the end of a run. */
 typedef struct unisim_predictor_info {
   double focal_px;       /**< last estimate, 0 if none */
@@ -216,6 +241,33 @@ struct unisim_predictor {
 
   /** No more multi_view() will ask for keyframe `id` as a place. One that is not kept: nothing. */
   void (*release_place)(unisim_predictor* predictor, int32_t id);
+
+  /* Maps that outlive the run, for predictors with a map of their own. All four functions or none;
+   * a table of a smaller struct_size has none. */
+
+  /** Write the map. It stays as it is; what runs in the background is not waited for.
+   *  @param write called with the bytes in order, from within
+   *  @return UNISIM_PREDICTION_OK; _REJECTED: there is no map yet, or `write` said 0; _FAILED */
+  int (*save_map)(unisim_predictor* predictor, unisim_map_write write, void* context);
+
+  /** Take a saved map, before the first frame. The predictor is then as one whose track was lost
+   *  after the last keyframe of the map; keyframe() goes on with the number after it. What was not
+   *  said of the camera is taken from the map.
+   *  @param read          called for the bytes in order, from within
+   *  @param[out] next_keyframe number of the next keyframe
+   *  @return UNISIM_PREDICTION_OK; _REJECTED: no map, a damaged one, one of another version or
+   *          camera, or larger than the configuration: message() says which part and why, and the
+   *          predictor is as it was made; _FAILED */
+  int (*load_map)(unisim_predictor* predictor, unisim_map_read read, void* context,
+                  int32_t* next_keyframe);
+
+  /** Where in the map a frame was taken. Nothing of the map changes, and the frame is not observed:
+   *  in place of observe(), for as long as the caller likes. The time for a frame is bounded.
+   *  @return UNISIM_PREDICTION_OK; _REJECTED: it is not found, or of no use; _FAILED */
+  int (*locate)(unisim_predictor* predictor, const unisim_frame* frame, unisim_location* out);
+
+  /** A keyframe of the map. @return UNISIM_PREDICTION_OK, _REJECTED (not in the map, or no pose) */
+  int (*map_pose)(unisim_predictor* predictor, int32_t id, unisim_map_pose* out);
 };
 
 #ifdef __cplusplus

@@ -5,16 +5,11 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
-#include <new>
 #include <string>
-#include <vector>
 
 #include "drivers/common/size_text.hpp"
-#include "drivers/geometric/camera/ideal_view.hpp"
 #include "drivers/geometric/config.hpp"
-#include "drivers/geometric/geometric.h"
-#include "drivers/geometric/map/mapper.hpp"
-#include "drivers/geometric/predict/predictions.hpp"
+#include "drivers/geometric/predictor_self.hpp"
 #include "drivers/geometric/start/start_report.hpp"
 
 namespace unisim::geometric {
@@ -24,41 +19,6 @@ constexpr double kStaticFlow = 0.0008;  // of the diagonal: less is a camera at 
 constexpr double kStaticKept = 0.8;     // share of tracks that must agree
 constexpr double kUrgentKept = 0.4;     // share of tracks below which a keyframe is needed
 constexpr int32_t kMinSide = 64;        // pixels
-
-struct GeometricPredictor {
-  unisim_predictor table{};  // first: the table's address is the predictor's
-  unisim_geometric_config config{};
-  std::vector<uint8_t> mask;  // pixels of config.mask
-  IdealView view;
-  std::unique_ptr<Mapper> mapper;
-  std::unique_ptr<Predictions> predictions;
-  cv::Size size;
-  int32_t keyframes = 0;
-  int32_t static_frames = 0;
-  int64_t left_out = 0;  // frames that could not be taken
-  std::string message;
-  std::string left_out_why;
-  std::string no_start;                  // what info() says of a run without a start
-  std::vector<unisim_feature> features;  // of features()
-};
-
-GeometricPredictor* self(unisim_predictor* predictor) {
-  return reinterpret_cast<GeometricPredictor*>(predictor);
-}
-
-/// Runs `body`; nothing thrown below crosses the C interface.
-template <typename Body>
-int guarded(unisim_predictor* predictor, Body&& body) {
-  GeometricPredictor* me = self(predictor);
-  try {
-    return body(me);
-  } catch (const std::bad_alloc&) {
-    me->message = "geometric: out of memory; lower max_keyframes or max_landmarks";
-  } catch (const std::exception& error) {
-    me->message = std::string("geometric: ") + error.what();
-  }
-  return UNISIM_PREDICTION_FAILED;
-}
 
 /// A mask of another size than the first image's ends the run: no frame would be looked at rightly.
 bool fits_mask(GeometricPredictor* me, const unisim_image& image) {
@@ -82,7 +42,8 @@ bool open_state(GeometricPredictor* me, const cv::Size& size) {
   return true;
 }
 
-/// @return false with a message for an unusable image
+}  // namespace
+
 bool accept_image(GeometricPredictor* me, const unisim_image& image) {
   if (image.data == nullptr) {
     me->message = "geometric: the frame has no pixels";
@@ -100,6 +61,12 @@ bool accept_image(GeometricPredictor* me, const unisim_image& image) {
     return false;
   }
   const cv::Size size(image.width, image.height);
+  if (me->mapper && size != me->size && me->loaded) {
+    me->message = "geometric: the map's images have " +
+                  drivers::size_text(me->size.width, me->size.height) + " pixels, these " +
+                  drivers::size_text(size.width, size.height) + "; give frames of the map's size";
+    return false;
+  }
   if (me->mapper && size != me->size) {
     me->message = "geometric: image size changed from " +
                   drivers::size_text(me->size.width, me->size.height) + " to " +
@@ -108,6 +75,8 @@ bool accept_image(GeometricPredictor* me, const unisim_image& image) {
   }
   return true;
 }
+
+namespace {
 
 int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motion* motion) {
   *motion = {-1.0, -1.0, 0};
@@ -285,6 +254,7 @@ unisim_predictor* unisim_geometric_create(const unisim_geometric_config* config,
     problem = g::read_config(config, &made->config);
     if (problem.empty()) {
       g::own_mask(made.get());
+      made->given = made->config;
       unisim_predictor& table = made->table;
       table.struct_size = sizeof table;
       table.name = "geometric";
@@ -301,6 +271,7 @@ unisim_predictor* unisim_geometric_create(const unisim_geometric_config* config,
       table.message = g::message;
       table.destroy = g::destroy;
       table.features = g::features;
+      g::fill_map_calls(&table);
       return &made.release()->table;
     }
   } catch (const std::exception& error) {

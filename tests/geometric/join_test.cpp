@@ -49,6 +49,7 @@ struct TwoSegments {
       }
       if (segment == 1) keyframe.pose = true_move().inverse().apply(keyframe.pose);
     }
+    state.segments = 2;
     state.enter(1);
   }
   static Eigen::Vector3d point(int k) {
@@ -123,6 +124,16 @@ TEST_CASE("segments are joined when three keyframes agree on how they lie") {
     CHECK(mark.segment == 0);
     CHECK((mark.position - TwoSegments::point(k)).norm() < 1e-5);
   }
+}
+
+TEST_CASE("a segment that begins after the return to an older one has a number of its own") {
+  TwoSegments world;
+  CHECK(world.state.segment == 1);
+  world.state.enter(0);
+  world.state.begin(12);
+  CHECK(world.state.segment == 2);
+  CHECK(world.state.segment_start == 12);
+  CHECK(world.state.posed == 0);
 }
 
 TEST_CASE("a keyframe found in another segment waits for others so long and no longer") {

@@ -39,7 +39,9 @@ int PredictorRun::show(const GrayImage& image, bool keyframe) {
   frame.image = {image.data(), kWidth, kHeight, kWidth, UNISIM_PIXEL_GRAY8};
   const int answer = table_->observe(table_.get(), &frame, &motion_);
   if (keyframe) {
-    REQUIRE(table_->keyframe(table_.get(), &frame, keyframes_++) == UNISIM_PREDICTION_OK);
+    const int taken = table_->keyframe(table_.get(), &frame, keyframes_++);
+    INFO(table_->message(table_.get()));
+    REQUIRE(taken == UNISIM_PREDICTION_OK);
   }
   return answer;
 }

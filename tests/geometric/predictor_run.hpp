@@ -27,6 +27,8 @@ class PredictorRun {
   unisim_predictor* table() { return table_.get(); }
   const unisim_motion& motion() const { return motion_; }
   int keyframes() const { return keyframes_; }
+  /// The next keyframe has this number.
+  void go_on_with(int keyframe) { keyframes_ = keyframe; }
   /// Places of the keyframes that show_path() made.
   const std::vector<CameraPlace>& places() const { return places_; }
 

@@ -34,6 +34,24 @@ void PatchStore::store(int32_t landmark, int index, uint32_t generation, int32_t
   view.offset = point - middle;
 }
 
+void PatchStore::archive(drivers::Archive* io, int32_t landmark, uint32_t generation) {
+  for (int index = 0; index < kPatchesPerLandmark; ++index) {
+    PatchView& patch = views_[at(landmark, index)];
+    bool kept = patch.generation == generation;
+    io->flag(kept);
+    if (!kept) continue;
+    patch.generation = generation;
+    io->number(patch.keyframe, 0, drivers::kMostKeyframeId);
+    io->number(patch.offset.x);
+    io->number(patch.offset.y);
+    // Within the pixel; not a number is neither.
+    io->require(
+        patch.offset.x >= 0 && patch.offset.x <= 1 && patch.offset.y >= 0 && patch.offset.y <= 1,
+        "a patch lies beside its landmark");
+    io->bytes(pixels_.data() + at(landmark, index) * kPatchBytes, kPatchBytes);
+  }
+}
+
 int64_t PatchStore::bytes() const {
   return static_cast<int64_t>(views_.capacity() * sizeof(PatchView) + pixels_.capacity());
 }

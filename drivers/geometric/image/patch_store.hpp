@@ -6,6 +6,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "drivers/common/archive.hpp"
+
 namespace unisim::geometric {
 
 inline constexpr int kPatchSide = 32;  ///< pixels, even
@@ -29,6 +31,8 @@ class PatchStore {
   /// Cuts a patch around `point`; beyond the border the image's edge is repeated.
   void store(int32_t landmark, int index, uint32_t generation, int32_t keyframe,
              const cv::Mat& gray, const cv::Point2f& point);
+  /// Saves or loads the patches of one landmark; those of older generations are left out.
+  void archive(drivers::Archive* io, int32_t landmark, uint32_t generation);
   int64_t bytes() const;
 
  private:

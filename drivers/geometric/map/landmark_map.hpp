@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "drivers/common/archive.hpp"
 #include "drivers/geometric/bundle/camera_model.hpp"
 
 namespace unisim::geometric {
@@ -129,7 +130,17 @@ class LandmarkMap {
 
   int64_t bytes() const;
 
+  /// Will the landmark be there when a saved map is loaded?
+  bool lasts(int32_t slot) const;
+  /// Saves the map, or loads one into a map that is as it was made. Landmarks keep their slots.
+  /// @param segments numbers of segments that are taken
+  void archive(drivers::Archive* io, int32_t segments);
+
  private:
+  void archive_landmark(drivers::Archive* io, int32_t slot, int32_t segments);
+  void archive_keyframe(drivers::Archive* io, int32_t id, int32_t segments);
+  void archive_observation(drivers::Archive* io, Observation& seen) const;
+  void load_observation(drivers::Archive* io);
   size_t slot_of(int32_t id) const { return static_cast<size_t>(id) % keyframes_.size(); }
   bool full(int32_t id) const {
     return static_cast<size_t>(keyframe(id).observations) == per_keyframe_;

@@ -199,7 +199,7 @@ void Mapper::take_pose(int32_t id, const FramePose& first) {
 }
 
 void Mapper::recover(int32_t id, const CameraPose& near) {
-  if (!state_.map.holds(id)) return;
+  if (!state_.map.holds(id) || state_.map.keyframe(id).posed) return;
   const FramePose found = poses_.solve_old(state_, id, near);
   if (!found.good) return;
   Keyframe& lost = state_.map.keyframe(id);
@@ -285,10 +285,7 @@ void Mapper::lose(int32_t id) {
 
 void Mapper::begin_segment(int32_t id) {
   ++counts_.restarts;
-  ++state_.segment;
-  state_.segment_start = id;
-  state_.initialised = false;
-  state_.posed = 0;
+  state_.begin(id);
   adjusted_posed_ = 0;
   bootstrap_.restart(id);
   let_go();

@@ -13,6 +13,7 @@
 #include "drivers/geometric/map/map_adjustment.hpp"
 #include "drivers/geometric/map/revive.hpp"
 #include "drivers/geometric/map/state.hpp"
+#include "drivers/geometric/places/locator.hpp"
 #include "drivers/geometric/places/places.hpp"
 #include "drivers/geometric/start/bootstrap.hpp"
 #include "drivers/geometric/zoom/zoom_watch.hpp"
@@ -53,7 +54,19 @@ class Mapper {
   const StartStatistics& start_statistics() const { return start_; }
   int64_t bytes() const;
 
+  /// Where in the map an image was taken; see Locator.
+  bool locate(const unisim_image& image, PlaceFound* out, bool* followed) {
+    return locator_.run(state_, patches_, image, &places_, out, followed);
+  }
+
+  /// Saves the map, or loads one into a mapper that has seen nothing; from there it goes on as one
+  /// whose track was lost after the last keyframe. Throws drivers::ArchiveError.
+  void archive(drivers::Archive* io);
+  /// Is there a map worth saving?
+  bool has_map() const;
+
  private:
+  void archive_looks(drivers::Archive* io);
   void tell_zoom(int64_t frame);
   void note_followed();
   /// The landmarks of the tracks are no longer followed.
@@ -91,6 +104,7 @@ class Mapper {
   Revive revive_;
   Places places_;
   PlaceFound found_;
+  Locator locator_;
   std::vector<LoopObservation> loops_;
   std::vector<int32_t> joined_ids_;  // keyframes of the segment that was joined last
   ZoomWatch zoom_;

@@ -42,6 +42,13 @@ void sort_by_landmark(std::vector<LoopObservation>* observations) {
             });
 }
 
+void State::begin(int32_t id) {
+  segment = segments++;
+  segment_start = id;
+  initialised = false;
+  posed = 0;
+}
+
 void State::enter(int32_t older_segment) {
   segment = older_segment;
   segment_start = map.end_id();

@@ -43,9 +43,12 @@ struct State {
   bool initialised = false;
   int32_t segment = 0;
   int32_t segment_start = 0;  ///< first keyframe of the segment
+  int32_t segments = 1;       ///< ever begun; that many numbers are taken
   int32_t posed = 0;          ///< keyframes posed in this segment
   double median_depth = 0;    ///< of the newest posed keyframe's landmarks
 
+  /// Begins a segment with keyframe `id`.
+  void begin(int32_t id);
   /// Goes on in an older segment.
   void enter(int32_t older_segment);
 

@@ -66,6 +66,25 @@ void DescriptorStore::append(int32_t landmark, uint32_t generation,
   }
 }
 
+void DescriptorStore::archive(drivers::Archive* io, int32_t landmark, uint32_t generation) {
+  Entry& entry = entries_[static_cast<size_t>(landmark)];
+  bool kept = entry.generation == generation;
+  io->flag(kept);
+  if (!kept) return;
+  entry.generation = generation;
+  const size_t base = static_cast<size_t>(landmark) * kPerLandmark;
+  for (size_t v = 0; v < kDescribedViews; ++v) {
+    View& view = entry.view[v];
+    io->number(view.valid);
+    io->require(view.valid < 1 << kOrbScales, "a landmark is described at a scale that is none");
+    io->number(view.keyframe, -1, drivers::kMostKeyframeId);
+    for (size_t s = 0; s < kOrbScales; ++s) {
+      if ((view.valid >> s) & 1)
+        io->bytes(descriptors_[base + v * kOrbScales + s].data(), kOrbBytes);
+    }
+  }
+}
+
 int64_t DescriptorStore::bytes() const {
   const size_t all = entries_.capacity() * sizeof(Entry) +
                      (descriptors_.capacity() + fresh_.capacity()) * sizeof(OrbDescriptor) +

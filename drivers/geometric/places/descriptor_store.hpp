@@ -25,6 +25,9 @@ class DescriptorStore {
   /// Appends the descriptors of a landmark as rows.
   void append(int32_t landmark, uint32_t generation, std::vector<OrbDescriptor>* out) const;
 
+  /// Saves or loads the descriptors of one landmark; those of older generations are left out.
+  void archive(drivers::Archive* io, int32_t landmark, uint32_t generation);
+
   int64_t bytes() const;
 
  private:

@@ -73,7 +73,7 @@ bool PlaceFinder::find(const State& state, const DescriptorStore& store, const P
     } else {
       good = verify(state, patches, current, out, &report);
     }
-    log->add(report);
+    if (log != nullptr) log->add(report);
     if (good) return true;
   }
   return false;
@@ -92,7 +92,21 @@ bool PlaceFinder::verify(const State& state, const PatchStore& patches,
                          const PreparedImage& current, PlaceFound* out,
                          unisim_place_report* report) {
   CameraPose pose;
-  if (!pose_from_features(state, &pose, report)) return false;
+  return pose_from_features(state, &pose, report) &&
+         check(state, patches, current, pose, out, report);
+}
+
+bool PlaceFinder::look_near(const State& state, const DescriptorStore& store,
+                            const PatchStore& patches, const PreparedImage& current,
+                            int32_t keyframe, const CameraPose& expected, PlaceFound* out) {
+  viewer_.collect(state, store, keyframe, &view_);
+  unisim_place_report report{};
+  return check(state, patches, current, expected, out, &report);
+}
+
+/// The patches decide.
+bool PlaceFinder::check(const State& state, const PatchStore& patches, const PreparedImage& current,
+                        const CameraPose& pose, PlaceFound* out, unisim_place_report* report) {
   check_.run(state, patches, current, view_.landmark.data(), view_.own, pose, &checked_);
   report->in_view = checked_.in_view;
   report->patch_inliers = static_cast<int32_t>(checked_.inliers.size());
@@ -108,6 +122,7 @@ bool PlaceFinder::verify(const State& state, const PatchStore& patches,
   report->reason = "accepted";
   out->keyframe = view_.keyframe;
   out->pose = checked_.pose;
+  out->in_view = checked_.in_view;
   out->matches = checked_.inliers;
   return true;
 }

@@ -18,6 +18,7 @@ namespace unisim::geometric {
 struct PlaceFound {
   int32_t keyframe = -1;  ///< the candidate
   CameraPose pose;
+  int32_t in_view = 0;  ///< landmarks that were looked for
   std::vector<PatchMatch> matches;
 };
 
@@ -39,10 +40,18 @@ class PlaceFinder {
     int32_t gap;    ///< keyframes between the image and a candidate, at least
     int32_t tries;  ///< candidates
   };
-  /// Looks for the keyframe seen last in the map. Adds what was tried to `log`.
+  /// Looks for the keyframe seen last in the map.
+  /// @param log gets what was tried; may be NULL
   bool find(const State& state, const DescriptorStore& store, const PatchStore& patches,
             const PreparedImage& current, const Question& question, PlaceFound* out,
             drivers::PlaceReports* log);
+  /// Whether an image shows what keyframe `keyframe` saw, from `expected`.
+  bool look_near(const State& state, const DescriptorStore& store, const PatchStore& patches,
+                 const PreparedImage& current, int32_t keyframe, const CameraPose& expected,
+                 PlaceFound* out);
+
+  /// See PlaceList::archive().
+  void archive(drivers::Archive* io, int32_t first, int32_t end) { list_.archive(io, first, end); }
 
   Orb& orb() { return orb_; }
   int64_t bytes() const;
@@ -50,6 +59,8 @@ class PlaceFinder {
  private:
   bool verify(const State& state, const PatchStore& patches, const PreparedImage& current,
               PlaceFound* out, unisim_place_report* report);
+  bool check(const State& state, const PatchStore& patches, const PreparedImage& current,
+             const CameraPose& pose, PlaceFound* out, unisim_place_report* report);
   bool pose_from_features(const State& state, CameraPose* pose, unisim_place_report* report);
   bool linked(const State& state) const;
 

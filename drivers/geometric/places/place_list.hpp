@@ -2,10 +2,13 @@
 // The keyframes of the state by what they look like.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "drivers/common/archive.hpp"
 #include "drivers/common/place_store.hpp"
+#include "drivers/geometric/places/vlad.hpp"
 
 namespace unisim::geometric {
 
@@ -21,10 +24,23 @@ class PlaceList {
   /// The keyframes most like a descriptor, at least `gap` from keyframe `id` and `spread` apart.
   const std::vector<unisim_places_match>& query(int32_t id, const int8_t* descriptor, int32_t gap,
                                                 int32_t spread, int32_t most);
-  int64_t bytes() const { return places_.bytes(); }
+  /// Saves or loads the places. @param first, end keyframes that the state holds
+  void archive(drivers::Archive* io, int32_t first, int32_t end);
+  int64_t bytes() const {
+    return places_.bytes() + static_cast<int64_t>(entries_.size() * sizeof(Entry));
+  }
 
  private:
+  struct Entry {
+    int32_t keyframe = -1;
+    std::array<int8_t, kVladSize> descriptor{};
+  };
+  Entry& entry(int32_t keyframe) {
+    return entries_[static_cast<size_t>(keyframe) % entries_.size()];
+  }
+
   drivers::PlaceStore places_;
+  std::vector<Entry> entries_;  // what was added: an index is not read out again
   int32_t first_ = 0;
 };
 

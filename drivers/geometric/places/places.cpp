@@ -10,6 +10,8 @@ namespace {
 // While nothing can be followed there is time: after 60 black frames in redkitchen the right place
 // was among the first 4 for seven of ten keyframes.
 constexpr int32_t kLostTries = 8;
+// Of a frame that is asked for by itself; each takes some milliseconds.
+constexpr int32_t kLocateTries = 12;
 // A segment that could be joined stays so for as long as the camera is near it.
 constexpr int32_t kJoinTries = 4;
 // Every second keyframe is a place, is looked for among the older ones, and costs the time for it;
@@ -28,6 +30,18 @@ bool Places::relocalise(const Look& look, PlaceFound* out) {
       finder_.find(look.state, store_, look.patches, look.current, question, out, &reports_);
   relocalised_ += found ? 1 : 0;
   return found;
+}
+
+bool Places::locate(const Look& look, PlaceFound* out) {
+  if (config_.places == 0) return false;
+  finder_.see(look.gray, look.keyframe);
+  const PlaceFinder::Question question = {PlaceFinder::Scope::kAll, 0, kLocateTries};
+  return finder_.find(look.state, store_, look.patches, look.current, question, out, nullptr);
+}
+
+bool Places::look_near(const Look& look, int32_t keyframe, const CameraPose& expected,
+                       PlaceFound* out) {
+  return finder_.look_near(look.state, store_, look.patches, look.current, keyframe, expected, out);
 }
 
 void Places::keep(const Look& look) {

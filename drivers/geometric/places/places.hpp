@@ -27,6 +27,10 @@ class Places {
 
   /// While the track is lost: where in the map is the keyframe?
   bool relocalise(const Look& look, PlaceFound* out);
+  /// Where in the map is an image that is no keyframe? Nothing is kept of it.
+  bool locate(const Look& look, PlaceFound* out);
+  /// Is it at `expected`, by what keyframe `keyframe` saw?
+  bool look_near(const Look& look, int32_t keyframe, const CameraPose& expected, PlaceFound* out);
   /// A keyframe has its pose: keeps the place, and looks for older views of it, in its segment and
   /// in others.
   void keep(const Look& look);
@@ -39,6 +43,15 @@ class Places {
   /// Fills the fields on places.
   void info(unisim_predictor_info* out) const;
   int64_t bytes() const;
+
+  /// Saves or loads what one landmark looks like.
+  void archive_landmark(drivers::Archive* io, int32_t landmark, uint32_t generation) {
+    store_.archive(io, landmark, generation);
+  }
+  /// Saves or loads what the keyframes look like. @param first, end that the state holds
+  void archive_keyframes(drivers::Archive* io, int32_t first, int32_t end) {
+    finder_.archive(io, first, end);
+  }
 
  private:
   void try_loop(const Look& look);

@@ -54,4 +54,15 @@ void Intrinsics::take(const BundleIntrinsics& in, const cv::Size& size) {
   camera.focal_px = std::clamp(model.focal_px, kMinFocal * size.width, kMaxFocal * size.width);
 }
 
+void Intrinsics::archive(drivers::Archive* io, const cv::Size& size) {
+  constexpr double kMostK1 = 1e3;
+  io->part("camera");
+  double focal = camera.focal_px;
+  io->number(focal, kMinFocal * size.width, kMaxFocal * size.width);
+  if (!focal_known) camera.focal_px = focal;
+  io->number(camera.k1, -kMostK1, kMostK1);
+  io->number(turned_rad, 0.0, 4.0);
+  io->number(log_focal_sigma, 0.0, 1e9);
+}
+
 }  // namespace unisim::geometric

@@ -4,6 +4,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "drivers/common/archive.hpp"
 #include "drivers/geometric/bundle/bundle_problem.hpp"
 
 namespace unisim::geometric {
@@ -30,6 +31,8 @@ struct Intrinsics {
   void give(bool early, BundleIntrinsics* out) const;
   /// Takes values back, within sane limits.
   void take(const BundleIntrinsics& in, const cv::Size& size);
+  /// Saves or loads what has been learnt; what was given stays as start() was told.
+  void archive(drivers::Archive* io, const cv::Size& size);
 };
 
 }  // namespace unisim::geometric
