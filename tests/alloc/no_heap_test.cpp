@@ -6,7 +6,9 @@
 
 #include "tests/alloc/malloc_counter.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/owned_session.hpp"
 #include "tests/support/random_session.hpp"
+#include "tests/support/snapshot_bytes.hpp"
 #include "unisim/places.h"
 
 using namespace unisim::test;
@@ -78,6 +80,35 @@ TEST_CASE("twenty thousand keyframes in a sliding window make no heap call") {
   CHECK(info.keyframes == 20000);
   CHECK(info.first_keyframe > 18000);
   CHECK(info.retired_keyframes > 10000);
+}
+
+TEST_CASE("saving and loading a map makes no heap call") {
+  const auto window_submaps = GENERATE(0, 2);
+  unisim_config config;
+  REQUIRE(unisim_config_init(&config, sizeof config) == UNISIM_OK);
+  config.max_keyframes = 200;
+  config.window_submaps = window_submaps;
+  OwnedSession owned(config);
+  Habits habits;
+  habits.keyframes = 150;
+  RandomCaller caller(owned.session, config, 17U, habits);
+  while (caller.step()) {
+  }
+  SnapshotBytes snapshot;
+  snapshot.bytes.reserve(4000000);
+  SnapshotBytes nothing;
+  unisim_load_report report = {};
+  report.struct_size = sizeof report;
+  int32_t failures = 0;
+  const int64_t before = heap_calls();
+  failures += unisim_save_map(owned.session, SnapshotBytes::write, &snapshot) != UNISIM_OK;
+  failures += unisim_session_reset(owned.session) != UNISIM_OK;
+  failures += unisim_load_map(owned.session, SnapshotBytes::take, &nothing) != UNISIM_ERR_IO;
+  failures += unisim_get_load_report(owned.session, &report) != UNISIM_OK;
+  failures += unisim_load_map(owned.session, SnapshotBytes::take, &snapshot) != UNISIM_OK;
+  CHECK(heap_calls() == before);
+  CHECK(failures == 0);
+  CHECK(snapshot.bytes.size() > 100000);
 }
 
 TEST_CASE("an index of places makes no heap call") {

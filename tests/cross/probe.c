@@ -100,6 +100,37 @@ static void add_poses_to_hash(unisim_session* session) {
   }
 }
 
+/* A snapshot in memory; its bytes are hashed. */
+static struct {
+  unsigned char bytes[400000];
+  size_t size;
+  size_t read;
+} saved;
+
+static int32_t write_saved(void* context, const void* bytes, size_t size) {
+  (void)context;
+  if (sizeof saved.bytes - saved.size < size) return 0;
+  memcpy(saved.bytes + saved.size, bytes, size);
+  saved.size += size;
+  add_to_hash(bytes, size);
+  return 1;
+}
+
+static int32_t read_saved(void* context, void* bytes, size_t size) {
+  (void)context;
+  if (saved.size - saved.read < size) return 0;
+  memcpy(bytes, saved.bytes + saved.read, size);
+  saved.read += size;
+  return 1;
+}
+
+static void interrupt(unisim_session* session) {
+  saved.size = saved.read = 0;
+  expect(unisim_save_map(session, write_saved, NULL) == UNISIM_OK, "unisim_save_map");
+  expect(unisim_session_reset(session) == UNISIM_OK, "unisim_session_reset");
+  expect(unisim_load_map(session, read_saved, NULL) == UNISIM_OK, "unisim_load_map");
+}
+
 static void walk(int window_submaps) {
   unisim_config config;
   expect(unisim_config_init(&config, sizeof config) == UNISIM_OK, "unisim_config_init");
@@ -107,6 +138,8 @@ static void walk(int window_submaps) {
   config.window_size = kWindow;
   config.window_submaps = window_submaps;
   config.scatter_gate = 0.2;
+  config.depth_grid_width = kColumns;
+  config.depth_grid_height = kRows;
   size_t size = 0;
   expect(unisim_arena_size(&config, &size) == UNISIM_OK, "unisim_arena_size");
   void* arena = malloc(size);
@@ -119,6 +152,7 @@ static void walk(int window_submaps) {
     answer_pairs(session);
     answer_windows(session);
     if (k == kKeyframes / 2) close_loop(session, k);
+    if (k == kKeyframes / 2 + 5) interrupt(session);
   }
   add_poses_to_hash(session);
   double covariance[49];

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A session saved and loaded at any moment goes on as the one that was saved, to the last bit.
 #include <cstring>
-#include <memory>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/owned_session.hpp"
 #include "tests/support/random_config.hpp"
 #include "tests/support/random_session.hpp"
 #include "tests/support/snapshot_bytes.hpp"
@@ -11,21 +11,6 @@
 using namespace unisim::test;
 
 namespace {
-
-struct Owned {
-  explicit Owned(const unisim_config& config) {
-    size_t size = 0;
-    REQUIRE(unisim_arena_size(&config, &size) == UNISIM_OK);
-    arena.reset(new unsigned char[size]);
-    REQUIRE(unisim_session_create(&session, &config, arena.get(), size) == UNISIM_OK);
-  }
-  ~Owned() { unisim_session_destroy(session); }
-  Owned(const Owned&) = delete;
-  Owned& operator=(const Owned&) = delete;
-
-  std::unique_ptr<unsigned char[]> arena;
-  unisim_session* session = nullptr;
-};
 
 bool same_poses(const unisim_session* a, const unisim_session* b, int32_t keyframes) {
   bool same = true;
@@ -52,8 +37,8 @@ bool same_info(const unisim_session* a, const unisim_session* b) {
 int32_t run(uint32_t seed, double garbage) {
   CAPTURE(seed, garbage);
   const unisim_config config = random_config(seed);
-  Owned first(config);
-  Owned second(config);
+  OwnedSession first(config);
+  OwnedSession second(config);
   Habits habits;
   habits.garbage = garbage;
   habits.keyframes = 300;

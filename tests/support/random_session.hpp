@@ -28,6 +28,11 @@ class RandomCaller {
 
   /// One call. false: the last keyframe, of the habits or of the session's capacity, is there.
   bool step();
+  /// The session has been loaded: it has these already.
+  void go_on(int32_t keyframes, int32_t submaps) {
+    keyframes_ = keyframes;
+    submaps_ = submaps;
+  }
   /// Optimisations that found the solver's declared memory too small.
   int64_t solver_overflows() const { return solver_overflows_; }
   /// Calls answered with this status.
