@@ -76,6 +76,10 @@ TEST_CASE("window prints memory, times and errors") {
   CHECK(result.at("heap_calls_after_init") == 0);
   require_times(result.at("update_ms"));
   require_times(result.at("loop_update_ms"));
+  CHECK(result.at("snapshot_bytes").get<int64_t>() > 0);
+  CHECK(result.at("snapshot_bytes") < result.at("arena_bytes"));
+  CHECK(result.at("save_ms").get<double>() >= 0.0);
+  CHECK(result.at("load_ms").get<double>() >= 0.0);
   CHECK(result.at("ate_m").get<double>() > 0.0);
   CHECK(result.at("ate_over_batch").get<double>() > 0.0);
   REQUIRE(program.run("window --keyframes 60 --batch off --skeleton-capacity 8 --json") == 0);

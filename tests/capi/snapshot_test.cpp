@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A map that outlives the run: loaded, it goes on as if it had not been interrupted.
+#include <algorithm>
 #include <cstring>
 
 #include "tests/capi/world.hpp"
@@ -104,6 +105,26 @@ TEST_CASE("saving leaves the map as it is") {
   full.limit = before.bytes.size() / 2;
   CHECK(unisim_save_map(host, SnapshotBytes::write, &full) == UNISIM_ERR_IO);
   CHECK(save(host).bytes == before.bytes);
+}
+
+TEST_CASE("a map that was saved differs from one that was not in its last digits only") {
+  const unisim_config config = small_config(2);
+  World world(160, 3U, kNoise);
+  World again = world;
+  Host host(config);
+  Host never_saved(config);
+  feed(host, world, 80);
+  feed(never_saved, again, 80);
+  save(host);
+  feed(host, world, 60);
+  feed(never_saved, again, 60);
+  double largest = 0.0;
+  for (int32_t id = 0; id < 140; ++id) {
+    const unisim::Sim3 apart =
+        between(from_c(host.pose(id).T_world_kf), from_c(never_saved.pose(id).T_world_kf));
+    largest = std::max(largest, sim3_log(apart).cwiseAbs().maxCoeff());
+  }
+  CHECK(largest < 1e-6);
 }
 
 TEST_CASE("a loop over the break joins what came after it to the map") {

@@ -137,6 +137,7 @@ WalkResult Walker::walk() {
   result_.loops_dropped = info.loops_dropped;
   result_.arena_bytes = session_.arena_bytes();
   result_.depth_bytes = session_.depth_bytes();
+  result_.snapshot = session_.snapshot();
   result_.live_ate_m = ate(live_, truth);
   result_.ate_m = ate(positions(), truth);
   return result_;

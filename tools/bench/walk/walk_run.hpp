@@ -10,6 +10,7 @@
 #include "drivers/pipeline/heap_watch.hpp"
 #include "tools/bench/simulator/loops.hpp"
 #include "tools/bench/simulator/world.hpp"
+#include "tools/bench/walk/snapshot_run.hpp"
 
 namespace unisim::bench {
 
@@ -43,6 +44,7 @@ struct WalkResult {
   int64_t heap_calls = 0;  ///< inside the library, after the session was made
   std::vector<double> update_ms;
   std::vector<double> loop_update_ms;
+  SnapshotResult snapshot;      ///< of the map at the end
   double live_ate_m = 0.0;      ///< of the poses as they were first given out
   double ate_m = 0.0;           ///< RMSE of positions after Sim(3) alignment
   double ate_over_batch = 0.0;  ///< 1 for a full batch itself, 0 when not compared

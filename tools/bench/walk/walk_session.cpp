@@ -32,7 +32,7 @@ size_t depth_bytes_of(const unisim_config& config) {
 }  // namespace
 
 WalkSession::WalkSession(const unisim_config& config, const pipeline::HeapWatch& heap)
-    : heap_(heap) {
+    : config_(config), heap_(heap) {
   size_t bytes = 0;
   expect_ok(unisim_arena_size(&config, &bytes), "unisim_arena_size");
   arena_.resize(bytes);

@@ -10,6 +10,7 @@
 #include "drivers/pipeline/heap_watch.hpp"
 #include "drivers/pipeline/pose_book.hpp"
 #include "tools/bench/simulator/predictor.hpp"
+#include "tools/bench/walk/snapshot_run.hpp"
 #include "unisim/unisim.h"
 
 namespace unisim::bench {
@@ -40,11 +41,14 @@ class WalkSession {
   void read_retired();
   Eigen::Vector3d position(int32_t keyframe) const;
   unisim_session_info info() const;
+  /// Save the map and load it into another session.
+  SnapshotResult snapshot() const { return run_snapshot(session_, config_, heap_); }
 
  private:
   void expect_ok(unisim_status status, const char* call) const;
   unisim_submap describe(const simulator::Prediction& prediction);
 
+  unisim_config config_;
   std::vector<unsigned char> arena_;
   size_t depth_bytes_ = 0;
   unisim_session* session_ = nullptr;
