@@ -105,12 +105,13 @@ struct Placing {
   std::vector<double> submap_scale;
 };
 
-std::vector<Vertex> fuse(const Cloud& cloud, const Placing& placing, double k1 = 0.0) {
+std::vector<Vertex> fuse(const Cloud& cloud, const Placing& placing, double k1 = 0.0,
+                         double focal_px = 0.0) {
   const TempFile file;
   RunData run;
   for (const unisim_pose& pose : placing.keyframes) run.keyframes.push_back({pose, 0, -1.0});
   run.submap_scale = placing.submap_scale;
-  const int64_t count = cloud.write(file.path(), run, k1);
+  const int64_t count = cloud.write(file.path(), run, {k1, focal_px});
   std::vector<Vertex> vertices = read_ply(file.path());
   CHECK(count == static_cast<int64_t>(vertices.size()));
   return vertices;
@@ -193,7 +194,7 @@ TEST_CASE("pixels below a confidence asked for are left out") {
   std::fill(window.confidence.begin(), window.confidence.end(), 0.25F);
   window.confidence[5] = 0.31F;
   CloudOptions options;
-  options.min_confidence = unisim::replay::kGeometricConfidence;
+  options.min_confidence = 0.3;
   Cloud cloud(options);
   cloud.on_keyframe(0, picture.frame);
   cloud.on_window(0, window.prediction);
@@ -306,10 +307,66 @@ TEST_CASE("a large depth map is thinned to the grid, a missing image is grey") {
   CHECK(vertices[0].green == 128);
 }
 
+TEST_CASE("views of one surface are one surface: a point per cube") {
+  const Picture picture;
+  CloudOptions options;
+  options.voxel = 0.07;  // of a depth of 2
+  Cloud cloud(options);
+  Placing placing;
+  for (int32_t id = 0; id < 5; ++id) {
+    cloud.on_keyframe(id, picture.frame);
+    Window window(id);
+    std::fill(window.depth.begin(), window.depth.end(), 2.04F + 0.002F * static_cast<float>(id));
+    cloud.on_window(id, window.prediction);
+    placing.keyframes.push_back(pose_of(id));
+    placing.submap_scale.push_back(1.0);
+  }
+  const auto vertices = fuse(cloud, placing);
+  REQUIRE(vertices.size() == kColumns * kRows);
+  CHECK(vertices[0].z == Approx(2.044F));  // the mean of the five
+  CHECK(vertices[0].red == 200);
+  CHECK(vertices[0].confidence == 1.0F);
+}
+
+TEST_CASE("the focal length of one camera is the last estimate, those of a network are its own") {
+  const Picture picture;
+  for (const bool one : {true, false}) {
+    CloudOptions options;
+    options.one_camera = one;
+    Cloud cloud(options);
+    cloud.on_keyframe(0, picture.frame);
+    cloud.on_window(0, Window(0).prediction);
+    const auto vertices = fuse(cloud, {{pose_of(0)}, {1.0}}, 0.0, 2 * kFocal);
+    const double x = (0.125 - 0.5) * kWidth / kFocal * 2.0;
+    CHECK(vertices[0].x == Approx(one ? x / 2 : x));
+    CHECK(vertices[0].z == 2.0F);
+  }
+}
+
+TEST_CASE("with few sure pixels the rest is fitted to them") {
+  const Picture picture;
+  Window window(0);
+  std::fill(window.depth.begin(), window.depth.end(), 9.0F);
+  std::fill(window.confidence.begin(), window.confidence.end(), 0.4F);
+  for (const size_t at : {0, 3, 8, 11}) {
+    window.depth[at] = 2.0F;
+    window.confidence[at] = 1.0F;
+  }
+  CloudOptions options;
+  options.sure_confidence = unisim::replay::kGeometricSure;
+  options.confidence_drop = 0.0;
+  Cloud cloud(options);
+  cloud.on_keyframe(0, picture.frame);
+  cloud.on_window(0, window.prediction);
+  const auto vertices = fuse(cloud, {{pose_of(0)}, {1.0}});
+  REQUIRE(vertices.size() == kColumns * kRows);
+  for (const Vertex& vertex : vertices) CHECK(vertex.z == Approx(2.0F));
+}
+
 TEST_CASE("a cloud that cannot be written says where") {
   const Cloud cloud;
   try {
-    cloud.write("/proc/none/map.ply", {}, 0.0);
+    cloud.write("/proc/none/map.ply", {}, {});
     FAIL("no exception");
   } catch (const std::runtime_error& error) {
     CHECK(std::string(error.what()).find("/proc/none/map.ply: cannot be written") == 0);

@@ -89,6 +89,15 @@ void put(std::string* bytes, const T& value) {
   bytes->append(raw, sizeof value);
 }
 
+void put_vertex(const std::array<double, 3>& position, const std::array<uint8_t, 3>& colour,
+                float confidence, std::ostream* file) {
+  std::string bytes;
+  for (const double value : position) put(&bytes, static_cast<float>(value));
+  for (const uint8_t channel : colour) put(&bytes, channel);
+  put(&bytes, confidence);
+  *file << bytes;
+}
+
 std::string ply_header(int64_t points, int32_t segment) {
   std::ostringstream text;
   text << "ply\nformat binary_little_endian 1.0\n"
@@ -142,6 +151,7 @@ void Cloud::on_window(int32_t submap_id, const unisim_window_prediction& window)
     view.index = k;
     view.center_sigma = sigma;
     view.mean_confidence = confidence;
+    view.focal_px = window.focal_px;
     take_depth(window.depth[k], window.focal_px, &view);
   }
 }
@@ -162,8 +172,13 @@ float Cloud::least_confidence(const unisim_depth_map& map, int step) const {
   return std::max(least, confidences[static_cast<size_t>(drop)]);
 }
 
-void Cloud::take_depth(const unisim_depth_map& map, double focal_px, View* view) const {
+void Cloud::take_depth(const unisim_depth_map& given, double focal_px, View* view) {
   view->points.clear();
+  const bool fit = options_.sure_confidence > 0.0 && given.confidence != nullptr;
+  const unisim_depth_map& map =
+      fit ? surface_.fill(given, static_cast<float>(options_.sure_confidence),
+                          colours_of(*view, given))
+          : given;
   const int step = step_of(map, kGridWidth);
   const float least = least_confidence(map, step);
   for (int row = step / 2; row < map.height; row += step) {
@@ -190,6 +205,17 @@ Cloud::Rgb Cloud::colour_at(const View& view, double x, double y) {
   return view.colours[at + static_cast<size_t>(column)];
 }
 
+std::vector<Cloud::Rgb> Cloud::colours_of(const View& view, const unisim_depth_map& map) {
+  std::vector<Rgb> colours;
+  if (view.colours.empty()) return colours;
+  colours.reserve(static_cast<size_t>(map.width) * static_cast<size_t>(map.height));
+  for (int row = 0; row < map.height; ++row) {
+    for (int column = 0; column < map.width; ++column)
+      colours.push_back(colour_at(view, (column + 0.5) / map.width, (row + 0.5) / map.height));
+  }
+  return colours;
+}
+
 void Cloud::on_revision(int32_t submap_id, const unisim_window_revision& revision) {
   for (auto& [id, view] : views_) {
     if (view.submap_id != submap_id || view.index >= revision.count) continue;
@@ -211,7 +237,7 @@ void Cloud::settle(std::map<int32_t, View>::iterator view) {
   const std::vector<Point>& points = view->second.points;
   if (!points.empty()) {
     const SettledView head = {view->first, view->second.submap_id,
-                              static_cast<int64_t>(points.size())};
+                              static_cast<int64_t>(points.size()), view->second.focal_px};
     settled_.write(settled_.size(), &head, sizeof head);
     settled_.write(settled_.size(), points.data(), points.size() * sizeof(Point));
   }
@@ -242,6 +268,7 @@ void Cloud::for_each_placed(const RunData& poses, int32_t segment, bool with_poi
   for (int64_t at = 0; settled_.read(at, &head, sizeof head);) {
     const size_t bytes = static_cast<size_t>(head.points) * sizeof(Point);
     points.resize(static_cast<size_t>(head.points));
+    placed.focal_px = head.focal_px;
     if (place(head.keyframe_id, head.submap_id, &placed)) {
       if (with_points) settled_.read(at + int64_t{sizeof head}, points.data(), bytes);
       each(placed);
@@ -250,39 +277,78 @@ void Cloud::for_each_placed(const RunData& poses, int32_t segment, bool with_poi
   }
   for (const auto& [id, view] : views_) {
     placed.points = &view.points;
+    placed.focal_px = view.focal_px;
     if (place(id, view.submap_id, &placed)) each(placed);
   }
 }
 
-void Cloud::put_vertices(const PlacedView& placed, double radial_k1, std::ostream* file) {
-  std::string bytes;
+/// Calls each(position in the world, point).
+template <typename Each>
+void Cloud::for_each_point(const PlacedView& placed, const CloudCamera& camera, Each each) const {
   const unisim_sim3& T_world_kf = placed.pose->T_world_kf;
+  const bool shared = options_.one_camera && camera.focal_px > 0.0;
+  const double wider = shared ? placed.focal_px / camera.focal_px : 1.0;
   for (const Point& point : *placed.points) {
-    const auto x = static_cast<double>(point.x);
-    const auto y = static_cast<double>(point.y);
+    const double x = static_cast<double>(point.x) * wider;
+    const double y = static_cast<double>(point.y) * wider;
     const double z = static_cast<double>(point.depth) * placed.scale;
-    const double side = (1.0 + radial_k1 * (x * x + y * y)) * z;
-    const auto turned = rotate(T_world_kf.q, {x * side, y * side, z});
-    for (size_t axis = 0; axis < 3; ++axis) {
-      put(&bytes, static_cast<float>(turned[axis] + T_world_kf.t[axis]));
-    }
-    for (const uint8_t channel : point.colour) put(&bytes, channel);
-    put(&bytes, point.confidence);
+    const double side = (1.0 + camera.radial_k1 * (x * x + y * y)) * z;
+    std::array<double, 3> world = rotate(T_world_kf.q, {x * side, y * side, z});
+    for (size_t axis = 0; axis < 3; ++axis) world[axis] += T_world_kf.t[axis];
+    each(world, point);
   }
-  *file << bytes;
+}
+
+tools::VoxelGrid Cloud::thinned(const RunData& poses, int32_t segment,
+                                const CloudCamera& camera) const {
+  double log_depth = 0.0;
+  int64_t count = 0;
+  for_each_placed(poses, segment, true, [&](const PlacedView& placed) {
+    for (const Point& point : *placed.points) {
+      log_depth += std::log(static_cast<double>(point.depth) * placed.scale);
+      ++count;
+    }
+  });
+  const double mean = count > 0 ? std::exp(log_depth / static_cast<double>(count)) : 1.0;
+  tools::VoxelGrid grid(options_.voxel * mean, kMostVoxels);
+  for_each_placed(poses, segment, true, [&](const PlacedView& placed) {
+    for_each_point(placed, camera, [&](const std::array<double, 3>& world, const Point& point) {
+      std::array<double, 3> colour{};
+      for (size_t i = 0; i < 3; ++i) colour[i] = point.colour[i];
+      const auto confidence = static_cast<double>(point.confidence);
+      // Confidences of any scale: none may weigh nothing, or all.
+      grid.add(world, colour, confidence, std::clamp(confidence, 1e-3, 1e3));
+    });
+  });
+  return grid;
 }
 
 int64_t Cloud::write(const std::filesystem::path& path, const RunData& poses,
-                     double radial_k1) const {
+                     const CloudCamera& camera) const {
   const int32_t segment = longest_segment(poses.keyframes);
-  int64_t count = 0;
-  for_each_placed(poses, segment, false, [&](const PlacedView& placed) {
-    count += static_cast<int64_t>(placed.points->size());
-  });
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file << ply_header(count, segment);
-  for_each_placed(poses, segment, true,
-                  [&](const PlacedView& placed) { put_vertices(placed, radial_k1, &file); });
+  int64_t count = 0;
+  if (options_.voxel > 0.0) {
+    const tools::VoxelGrid grid = thinned(poses, segment, camera);
+    count = static_cast<int64_t>(grid.size());
+    file << ply_header(count, segment);
+    for (size_t k = 0; k < grid.size(); ++k) {
+      const tools::VoxelPoint point = grid.point(k);
+      Rgb colour{};
+      for (size_t i = 0; i < 3; ++i) colour[i] = static_cast<uint8_t>(point.colour[i] + 0.5);
+      put_vertex(point.position, colour, static_cast<float>(point.confidence), &file);
+    }
+  } else {
+    for_each_placed(poses, segment, false, [&](const PlacedView& placed) {
+      count += static_cast<int64_t>(placed.points->size());
+    });
+    file << ply_header(count, segment);
+    for_each_placed(poses, segment, true, [&](const PlacedView& placed) {
+      for_each_point(placed, camera, [&](const std::array<double, 3>& world, const Point& point) {
+        put_vertex(world, point.colour, point.confidence, &file);
+      });
+    });
+  }
   file.close();
   if (!file)
     throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(errno));

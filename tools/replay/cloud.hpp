@@ -13,7 +13,9 @@
 
 #include "drivers/pipeline/listener.hpp"
 #include "drivers/pipeline/temporary_file.hpp"
+#include "tools/common/voxel_grid.hpp"
 #include "tools/replay/run_data.hpp"
+#include "tools/replay/surface_fit.hpp"
 #include "unisim/unisim.h"
 
 namespace unisim::replay {
@@ -24,12 +26,33 @@ struct CloudOptions {
   double confidence_drop = 0.25;          ///< share of least confident pixels of a view left out
   unisim_predictor* predictor = nullptr;  ///< whose view is coloured; nullptr: the frames
   double min_confidence = 0.0;  ///< pixels below it are left out too; its scale is the predictor's
+  /// Pixels below it are fitted to those around (SurfaceFit). 0: they are not.
+  double sure_confidence = 0.0;
+  /// Windows are of one focal length, known better and better: the last holds for all. false: each
+  /// window has its own.
+  bool one_camera = false;
+  /// Cubes with one point each have this share of the mean depth as their side. 0: all points.
+  double voxel = 0.0;
 };
 
-/// CloudOptions::min_confidence for the geometric predictor: pixels between landmarks whose depths
-/// agree are kept (as near to a depth camera as the landmarks themselves: 2.4-2.8 % against 2.1 %,
-/// median on redkitchen), those across edges are not (4.5 % and more).
-constexpr double kGeometricConfidence = 0.3;
+/// CloudOptions::voxel of unisim-replay: a third of the distance of two points of one view.
+constexpr double kVoxelShare = 0.005;
+
+/// CloudOptions::sure_confidence for the geometric predictor: cells with a landmark whose depth is
+/// not a guess.
+constexpr double kGeometricSure = 0.75;
+
+/// CloudOptions::min_confidence for the geometric predictor, of fitted pixels (of those well inside
+/// of neighbours that agree 0.5). Chosen on a room and a desk of unisim-synth, shown on tsdf_box:
+/// 0.15 has fewer holes and more that hangs across edges, 0.25 the other way; the Chamfer distances
+/// differ by 3 %.
+constexpr double kGeometricConfidence = 0.2;
+
+/// The camera as the predictor knows it at the end of a run.
+struct CloudCamera {
+  double radial_k1 = 0.0;  ///< 0: no distortion
+  double focal_px = 0.0;   ///< 0: not known
+};
 
 /// Gathers views while the run goes on. For each keyframe it takes colours on a coarse grid and the
 /// depth of its most confident submap (least center_sigma; where that is not known the largest mean
@@ -51,11 +74,13 @@ class Cloud : public pipeline::Listener {
   void on_revision(int32_t submap_id, const unisim_window_revision& revision) override;
   void on_retired(const unisim_retired& retired, const unisim_pose* pose) override;
 
+  static constexpr size_t kMostVoxels = 1U << 18U;  ///< 29 MB while write() runs
+
   /// Writes binary PLY: x y z float, red green blue uchar, confidence float, in the world of the
   /// poses. Of several segments only the longest: they have no common frame.
-  /// @param radial_k1 of the predictor, 0 if none
   /// @return points written; throws std::runtime_error when the file cannot be written
-  int64_t write(const std::filesystem::path& path, const RunData& poses, double radial_k1) const;
+  int64_t write(const std::filesystem::path& path, const RunData& poses,
+                const CloudCamera& camera) const;
 
   int32_t views_in_memory() const { return static_cast<int32_t>(views_.size()); }
 
@@ -80,6 +105,7 @@ class Cloud : public pipeline::Listener {
     int32_t index = 0;  ///< of the view in the window
     double center_sigma = std::numeric_limits<double>::infinity();
     double mean_confidence = 0.0;
+    double focal_px = 0.0;  ///< of the window, which the points are made with
     std::vector<Point> points;
   };
 
@@ -88,10 +114,12 @@ class Cloud : public pipeline::Listener {
     int32_t keyframe_id;
     int32_t submap_id;
     int64_t points;
+    double focal_px;
   };
 
   struct PlacedView {
     const std::vector<Point>* points;
+    double focal_px;
     const unisim_pose* pose;
     double scale;  // submap unit to the world
   };
@@ -99,14 +127,18 @@ class Cloud : public pipeline::Listener {
   void settle(std::map<int32_t, View>::iterator view);
   template <typename Each>
   void for_each_placed(const RunData& poses, int32_t segment, bool with_points, Each each) const;
-  static void put_vertices(const PlacedView& placed, double radial_k1, std::ostream* file);
-  void take_depth(const unisim_depth_map& map, double focal_px, View* view) const;
+  template <typename Each>
+  void for_each_point(const PlacedView& placed, const CloudCamera& camera, Each each) const;
+  void take_depth(const unisim_depth_map& map, double focal_px, View* view);
+  tools::VoxelGrid thinned(const RunData& poses, int32_t segment, const CloudCamera& camera) const;
+  static std::vector<Rgb> colours_of(const View& view, const unisim_depth_map& map);
   static Rgb colour_at(const View& view, double x, double y);
   float least_confidence(const unisim_depth_map& map, int step) const;
 
   CloudOptions options_;
   std::map<int32_t, View> views_;  // by keyframe id: those that may still change
   pipeline::TemporaryFile settled_;
+  SurfaceFit surface_;
 };
 
 }  // namespace unisim::replay

@@ -76,14 +76,20 @@ CloudOptions cloud_options(unisim_predictor* predictor) {
   options.predictor = unisim_predictor_inside(predictor);
   unisim_predictor_recorded_size(predictor, &options.image_width, &options.image_height);
   const bool geometric = std::string_view(unisim_predictor_origin(predictor)) == "geometric";
-  if (geometric) options.min_confidence = kGeometricConfidence;
+  if (geometric) {
+    options.min_confidence = kGeometricConfidence;
+    options.sure_confidence = kGeometricSure;
+    options.one_camera = true;
+  }
+  options.voxel = kVoxelShare;
   return options;
 }
 
 /// The map is drawn in the frame of trajectory.tum.
 void write_map(const Run& run, const Cloud& cloud, OutputFolder* folder) {
   folder->write("map.ply", [&](const std::filesystem::path& path) {
-    cloud.write(path, run.data, run.result.predictor.radial_k1);
+    const unisim_predictor_info& predictor = run.result.predictor;
+    cloud.write(path, run.data, {predictor.radial_k1, predictor.focal_px});
   });
 }
 
