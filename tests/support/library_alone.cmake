@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# For checks that build the library alone, of the sources in ROOT into FOLDER: by another compiler, for another machine.
+# For checks that build once more, of the sources in ROOT into FOLDER: by another compiler, for another machine; mostly the
+# library alone.
 
 # need_programs(PROGRAMS...): ends the check where one is not there, and says so.
 macro(need_programs)
@@ -12,21 +13,25 @@ macro(need_programs)
   endforeach()
 endmacro()
 
-# configure_library(OPTIONS...): with OPTIONS of CMake; ccache serves where it is there.
-function(configure_library)
+# configure_all(OPTIONS...): all but tests, with OPTIONS of CMake; ccache serves where it is there.
+function(configure_all)
   find_program(ccache ccache)
   set(launcher "")
   if(ccache)
     set(launcher -DCMAKE_C_COMPILER_LAUNCHER=${ccache} -DCMAKE_CXX_COMPILER_LAUNCHER=${ccache})
   endif()
   execute_process(
-    COMMAND ${CMAKE_COMMAND} -S ${ROOT} -B ${FOLDER} ${ARGN} ${launcher}
-      -DUNISIM_BUILD_TESTS=OFF -DUNISIM_BUILD_TOOLS=OFF -DUNISIM_DRIVER_REPLAY=OFF
-      -DUNISIM_DRIVER_GEOMETRIC=OFF -DUNISIM_DRIVER_ONNX=OFF -DUNISIM_DRIVER_LCM=OFF
+    COMMAND ${CMAKE_COMMAND} -S ${ROOT} -B ${FOLDER} ${ARGN} ${launcher} -DUNISIM_BUILD_TESTS=OFF
     OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# build_library(TARGETS...)
+# configure_library(OPTIONS...): the library alone.
+function(configure_library)
+  configure_all(${ARGN} -DUNISIM_BUILD_TOOLS=OFF -DUNISIM_DRIVER_REPLAY=OFF -DUNISIM_DRIVER_GEOMETRIC=OFF
+    -DUNISIM_DRIVER_ONNX=OFF -DUNISIM_DRIVER_LCM=OFF)
+endfunction()
+
+# build_library(TARGETS...): of what was configured
 function(build_library)
   execute_process(COMMAND ${CMAKE_COMMAND} --build ${FOLDER} --target ${ARGN} --parallel 2
     OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
