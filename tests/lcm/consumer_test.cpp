@@ -2,7 +2,9 @@
 // The consumers of drivers/lcm/examples and the tools of LCM on our channels.
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
+#include <cstdio>
 
 #include "drivers/pipeline/similarity.hpp"
 #include "tests/lcm/child.hpp"
@@ -83,6 +85,29 @@ int64_t poses_in(const std::string& log) {
 TEST_CASE("the consumer in C does what README.md asks of one") {
   UNISIM_SKIP_WITHOUT_NETWORK();
   check_consumer({UNISIM_LCM_CONSUMER, "3"});
+}
+
+TEST_CASE("a consumer can tell how old poses are when they reach it") {
+  UNISIM_SKIP_WITHOUT_NETWORK();
+  Child consumer({UNISIM_LCM_AGE, "30"});
+  REQUIRE(consumer.wait_for("listening"));
+  const Made made = make_publisher("");
+  REQUIRE(made.publisher != nullptr);
+  const unisim_sim3 T = some_pose();
+  for (int k = 0; k < 30; ++k) {
+    const std::chrono::nanoseconds now = std::chrono::system_clock::now().time_since_epoch();
+    const std::chrono::nanoseconds stamp = now - std::chrono::milliseconds(1000);
+    REQUIRE(unisim_lcm_publish_pose(made.publisher.get(), stamp.count(), &T) == UNISIM_LCM_QUEUED);
+    usleep(1000);
+  }
+  std::string said;
+  REQUIRE(consumer.wait_for("30 poses", &said));
+  double p50 = 0.0;
+  REQUIRE(std::sscanf(said.c_str(), "30 poses, from the stamp of the frame to here p50 %lf",
+                      &p50) == 1);
+  CHECK(p50 >= 1000.0);
+  CHECK(p50 < 1400.0);
+  CHECK(consumer.end() == 0);
 }
 
 TEST_CASE("the consumer in Python does what README.md asks of one") {

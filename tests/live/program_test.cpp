@@ -2,7 +2,9 @@
 // unisim-live as its users start it; a recording stands for the camera.
 #include "tests/replay/program.hpp"
 
+#include <chrono>
 #include <filesystem>
+#include <sstream>
 
 #include "tests/support/catch.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -45,6 +47,50 @@ TEST_CASE("a live run without a folder writes nothing and ends well") {
   CHECK(has(live.err, "pose age"));
 }
 
+TEST_CASE("a recording that plays a camera is stamped with the time of day and its ages are told") {
+  const TempFolder folder;
+  const auto before = std::chrono::system_clock::now().time_since_epoch();
+  const ProgramResult live =
+      run_live({"--device", rendered_sequence(), "--as-camera", "--out", folder / "out"});
+  const auto after = std::chrono::system_clock::now().time_since_epoch();
+  INFO(live.err);
+  REQUIRE(live.code == 0);
+  CHECK(has(live.err, "from the stamp of the frame to the pose p50"));
+  std::istringstream poses(read_file(folder / "out/trajectory_live.tum"));
+  std::string line;
+  int count = 0;
+  while (std::getline(poses, line)) {
+    if (line.front() == '#') continue;
+    const std::chrono::duration<double> stamp(std::stod(line));
+    CHECK(stamp > before);
+    CHECK(stamp < after);
+    ++count;
+  }
+  CHECK(count > 20);
+}
+
+TEST_CASE("an interrupt ends the wait for a frame of a played camera") {
+  const TempFolder folder;
+  // The second frame is due in a day.
+  std::filesystem::create_directory(folder / "long");
+  std::filesystem::create_directory_symlink(rendered_sequence() + "/rgb", folder / "long/rgb");
+  std::istringstream list(read_file(rendered_sequence() + "/rgb.txt"));
+  std::string names;
+  std::string line;
+  for (int k = 0; k < 3 && std::getline(list, line);) {
+    if (line.front() == '#') continue;
+    names += std::to_string(k++ * 86400) + line.substr(line.find(' ')) + "\n";
+  }
+  write_file(folder / "long/rgb.txt", names);
+  Disturbance stop;
+  stop.interrupt_on = "INIT";
+  const auto start = std::chrono::steady_clock::now();
+  const ProgramResult live =
+      run_live({"--device", folder / "long", "--format", "tum", "--as-camera"}, stop);
+  INFO(live.err);
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));
+}
+
 TEST_CASE("what cannot be opened is named, with what to do") {
   const ProgramResult absent = run_live({"--device", "/dev/video77"});
   CHECK(absent.code == 3);
@@ -52,6 +98,9 @@ TEST_CASE("what cannot be opened is named, with what to do") {
   const ProgramResult size = run_live({"--size", "640"});
   CHECK(size.code == 2);
   CHECK(has(size.err, "--size is \"640\", must be WIDTHxHEIGHT"));
+  const ProgramResult played = run_live({"--device", "/dev/video0", "--as-camera"});
+  CHECK(played.code == 2);
+  CHECK(has(played.err, "--as-camera goes with a recorded sequence"));
   const ProgramResult recorded = run_live({"--predictor", "recorded", "--predictions", "x"});
   CHECK(recorded.code == 2);
 }

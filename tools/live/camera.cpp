@@ -52,11 +52,6 @@ unisim_source* with_time_of_day(unisim_source* camera, int64_t offset_ns) {
   return &table;
 }
 
-int64_t time_of_day_offset_ns() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count() - monotonic_ns();
-}
-
 int exit_code(int32_t problem) {
   switch (problem) {
     case UNISIM_V4L2_BAD_CONFIG:
@@ -69,6 +64,11 @@ int exit_code(int32_t problem) {
 }
 
 }  // namespace
+
+int64_t time_of_day_offset_ns() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count() - monotonic_ns();
+}
 
 replay::Input open_camera(const Options& options, int64_t* stamp_clock_offset_ns) {
   unisim_v4l2_config config = options.camera;

@@ -9,6 +9,9 @@
 
 namespace unisim::live {
 
+/// Time of day minus CLOCK_MONOTONIC, nanoseconds, now.
+int64_t time_of_day_offset_ns();
+
 /// Opens the camera. Its stamps become those of the time of day by one difference, taken now, so
 /// that messages and files can be put beside those of other programs and still never step.
 /// Throws Failure: no camera (3), not allowed or busy (4), a wrong option (2).

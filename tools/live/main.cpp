@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // unisim-live: a camera goes in, poses come out.
 #include <optional>
+#include <utility>
 
 #include "tools/common/failure.hpp"
 #include "tools/common/output.hpp"
@@ -9,6 +10,7 @@
 #include "tools/live/frame_recorder.hpp"
 #include "tools/live/lcm_images.hpp"
 #include "tools/live/options.hpp"
+#include "tools/live/played_camera.hpp"
 #include "tools/live/pose_age.hpp"
 #include "tools/live/scheduling.hpp"
 #include "tools/live/status_text.hpp"
@@ -49,6 +51,11 @@ class LiveRun {
       input = open_lcm_images(options_);
     } else {
       input.source = replay::open_sequence(options_.run, &input.notes);
+      if (options_.as_camera) {
+        const int64_t offset_ns = time_of_day_offset_ns();
+        input.source = play_as_camera(std::move(input.source), offset_ns);
+        ages_.set_stamp_clock(offset_ns);
+      }
     }
     input.listeners.push_back(&ages_);
     if (web_.listener() != nullptr) input.listeners.push_back(web_.listener());
@@ -65,6 +72,7 @@ class LiveRun {
     if (is_camera(options_.device)) losses = camera_losses(source);
     if (is_lcm(options_.device)) losses = lcm_losses(source);
     if (!losses.empty()) tools::complain(kProgramName, "frames " + losses);
+    if (ages_.known() && !options_.run.quiet) tools::complain(kProgramName, age_text(ages_.ages()));
     if (!recorder_) return;
     const std::string problem = recorder_->finish();
     recording_failed_ = !problem.empty();

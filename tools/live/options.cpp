@@ -107,6 +107,10 @@ void add_camera_options(CLI::App* app, Options* options, Given* given) {
   app->add_option("--format", options->run.format,
                   "of a recorded sequence, as unisim-replay has it")
       ->group(group);
+  app->add_flag("--as-camera", options->as_camera,
+                "the recorded sequence plays a camera: its frames are stamped with the time of day "
+                "and wait for nothing")
+      ->group(group);
 }
 
 void add_process_options(CLI::App* app, Options* options) {
@@ -179,11 +183,17 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
         "--lcm-images with --device lcm://: it would hear its own images; they are "
         "on the network already");
   }
-  if (is_camera(options.device) || is_lcm(options.device)) {
+  const bool recorded = !is_camera(options.device) && !is_lcm(options.device);
+  if (options.as_camera && !recorded) {
+    throw tools::Failure(tools::kExitUsage,
+                         "--as-camera goes with a recorded sequence as --device");
+  }
+  if (!recorded) {
     options.run.settings.pipeline.live = true;
     options.run.sequence = options.device.empty() ? "camera" : options.device;
   } else {
-    options.run.settings.pipeline.realtime = true;
+    (options.as_camera ? options.run.settings.pipeline.live
+                       : options.run.settings.pipeline.realtime) = true;
     options.run.sequence = options.device;
   }
   if (options.run.predictor == "recorded") {

@@ -19,6 +19,7 @@ struct Options {
   std::string device;         ///< as given: camera, LCM or recording
   std::string image_channel;  ///< of LCM, "" for the usual one
   bool list = false;
+  bool as_camera = false;          ///< the recording plays a camera
   std::optional<std::string> web;  ///< where to serve the page: PORT or ADDRESS:PORT
   std::string web_token;
   bool record_images = true;  ///< with run.out: what a replay of this run needs

@@ -23,6 +23,9 @@ class PoseAge : public pipeline::Listener {
 
   const pipeline::LatencyHistogram& ages() const { return ages_; }
 
+  /// Whether they are true ages.
+  bool known() const { return known_; }
+
  private:
   bool known_ = false;
   int64_t offset_ns_ = 0;  // of the stamps' clock to ours

@@ -21,4 +21,12 @@ std::string StatusText::operator()(const pipeline::Progress& progress) {
   return text;
 }
 
+std::string age_text(const pipeline::LatencyHistogram& ages) {
+  return tools::format(
+      "%lld poses, from the stamp of the frame to the pose p50 %.1f, p95 %.1f, p99 %.1f, max %.1f "
+      "ms",
+      static_cast<long long>(ages.count()), ages.percentile_ms(0.5), ages.percentile_ms(0.95),
+      ages.percentile_ms(0.99), ages.max_ms());
+}
+
 }  // namespace unisim::live

@@ -24,4 +24,7 @@ class StatusText {
   FrameRate rate_;
 };
 
+/// What came of the ages of a run, a line.
+std::string age_text(const pipeline::LatencyHistogram& ages);
+
 }  // namespace unisim::live
