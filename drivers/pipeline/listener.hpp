@@ -18,7 +18,8 @@ struct Progress {
   int64_t frames_bad = 0;      ///< unreadable
   int64_t frames_dropped = 0;  ///< late in a realtime run, given up for newer ones in a live one
   int32_t frames_waiting = 0;  ///< read ahead
-  int32_t keyframes = 0;
+  int32_t keyframes = 0;       ///< of this run
+  int64_t frames_located = 0;  ///< found in the map, with Options::localise
   int32_t submaps = 0;
   int32_t state = 0;      ///< UNISIM_STATE_*
   int64_t newest_ns = 0;  ///< time stamp of the newest frame
@@ -29,6 +30,19 @@ struct LivePose {
   int64_t timestamp_ns;
   unisim_sim3 T_world_cam;
   int32_t keyframe_id;  ///< -1: a frame between keyframes
+};
+
+/// What came of a frame that was looked for in the map.
+struct LocatedFrame {
+  int64_t frame_index;
+  int64_t timestamp_ns;
+  int32_t state;            ///< UNISIM_STATE_TRACKING: where the frame before let expect it,
+                            ///< UNISIM_STATE_RELOCALISED: anew, UNISIM_STATE_LOST: not found, and
+                            ///< nothing of what follows is set
+  unisim_sim3 T_world_cam;  ///< in the world of the map
+  double confidence;        ///< share of the landmarks in view that look as they should, 0..1
+  int32_t keyframe_id;      ///< it was compared with
+  int32_t inliers;          ///< landmarks that look as they should
 };
 
 /// A frame between keyframes, held by the keyframe before it.
@@ -55,6 +69,10 @@ class Listener {
 
   /// A frame between keyframes is placed; with Options::every_frame.
   virtual void on_between_pose(const BetweenPose& /*pose*/) {}
+
+  /// A frame was looked for in the map; with Options::localise. One that is found is a live pose
+  /// too.
+  virtual void on_located(const LocatedFrame& /*frame*/) {}
 
   /// A window entered the graph as `submap_id` (never -1: refused windows are not told).
   virtual void on_window(int32_t /*submap_id*/, const unisim_window_prediction& /*window*/) {}

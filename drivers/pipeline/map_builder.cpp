@@ -21,6 +21,12 @@ Step MapBuilder::session_failed(const char* call, unisim_status status) {
   return Step::kSessionFailed;
 }
 
+void MapBuilder::go_on_after(int32_t keyframes) {
+  newest_ = last_settled_ = keyframes - 1;
+  // The windows of the map end there, and no revision reaches them.
+  wide_windows_.note_gap();
+}
+
 Step MapBuilder::add_keyframe(const unisim_frame& frame, int32_t* id) {
   const unisim_status status = parts_.session->add_keyframe(frame.timestamp_ns, id);
   if (status != UNISIM_OK) return session_failed("unisim_add_keyframe", status);

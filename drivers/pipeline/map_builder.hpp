@@ -59,6 +59,9 @@ class MapBuilder {
   /// @param max_submaps newest windows whose revisions can be followed
   MapBuilder(const Parts& parts, size_t max_submaps);
 
+  /// Session and predictor have a map of so many keyframes: goes on after them.
+  void go_on_after(int32_t keyframes);
+
   /// New keyframe in session and predictor, under one number.
   Step add_keyframe(const unisim_frame& frame, int32_t* id);
 

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "drivers/pipeline/frame_reader.hpp"
+#include "drivers/pipeline/localiser.hpp"
 #include "drivers/pipeline/map_builder.hpp"
 #include "drivers/pipeline/messages.hpp"
 #include "drivers/pipeline/pacer.hpp"
@@ -32,6 +34,8 @@ class Pipeline::Impl {
         selector_(options.keyframes) {}
 
   Preparation prepare();
+  Preparation load(mapfile::MapFile* map);
+  const unisim_session_info& before() const { return before_; }
   const Result& run();
   const Result& result() const { return result_; }
   unisim_session* session() const { return session_.handle(); }
@@ -40,6 +44,7 @@ class Pipeline::Impl {
   void read_all();
   bool take(const FrameReader::Item& item);
   bool track(const FrameReader::Item& item);
+  bool locate(const FrameReader::Item& item);
   void pass_over(const FrameReader::Item& item);
   bool take_keyframe(const unisim_frame& frame);
   void pose_between(const unisim_frame& frame);
@@ -63,7 +68,9 @@ class Pipeline::Impl {
   Messages messages_;
   KeyframeSelector selector_;
   Pacer pacer_;
-  int32_t next_live_ = 0;  // first keyframe whose live pose is not given out yet
+  unisim_session_info before_{};
+  std::optional<Localiser> localiser_;  // with Options::localise
+  int32_t next_live_ = 0;               // first keyframe whose live pose is not given out yet
 };
 
 namespace {
@@ -100,6 +107,19 @@ Preparation Pipeline::Impl::prepare() {
       options_.loops};
   builder_ = std::make_unique<MapBuilder>(parts, static_cast<size_t>(windows));
   return preparation;
+}
+
+Preparation Pipeline::Impl::load(mapfile::MapFile* map) {
+  if (session_.handle() == nullptr) {
+    Preparation preparation = prepare();
+    if (preparation.answer != Preparation::Answer::kReady) return preparation;
+  }
+  map->hand_over(session_.handle(), predictor_);
+  if (session_.get_info(&before_) != UNISIM_OK) before_ = {};
+  builder_->go_on_after(before_.keyframes);
+  next_live_ = before_.keyframes;
+  if (options_.localise) localiser_.emplace(session_.handle(), predictor_);
+  return {};
 }
 
 const Result& Pipeline::Impl::run() {
@@ -163,7 +183,7 @@ bool Pipeline::Impl::take(const FrameReader::Item& item) {
     return true;
   }
   result_.progress.newest_ns = item.frame.timestamp_ns;
-  const bool goes_on = track(item);
+  const bool goes_on = localiser_ ? locate(item) : track(item);
   for (Listener* listener : listeners_) listener->on_frame(item.frame);
   tell_progress();
   return goes_on;
@@ -211,6 +231,34 @@ bool Pipeline::Impl::track(const FrameReader::Item& item) {
   const bool goes_on = went_well(builder_->serve_back());
   builder_->tell_retired();
   return goes_on;
+}
+
+bool Pipeline::Impl::locate(const FrameReader::Item& item) {
+  const unisim_frame& frame = item.frame;
+  const bool chosen = options_.keyframes.stride == 0 || selector_.choose(frame.index, {-1, -1, 0});
+  if (!chosen) return true;
+  ++result_.progress.frames;
+  unisim_location found{};
+  LocatedFrame located{frame.index, frame.timestamp_ns, UNISIM_STATE_LOST, {}, 0.0, -1, 0};
+  int answer = UNISIM_PREDICTION_OK;
+  {
+    const ScopedLatency timer(result_.times.track_total);
+    answer = predictor_->locate(predictor_, &frame, &found);
+    if (answer == UNISIM_PREDICTION_OK && localiser_->pose(found, &located.T_world_cam)) {
+      located.state = found.followed != 0 ? UNISIM_STATE_TRACKING : UNISIM_STATE_RELOCALISED;
+      located.confidence = static_cast<double>(found.inliers) / std::max(found.in_view, 1);
+      located.keyframe_id = found.keyframe_id;
+      located.inliers = found.inliers;
+    }
+  }
+  if (answer == UNISIM_PREDICTION_FAILED) return went_well(Step::kPredictorFailed);
+  if (answer != UNISIM_PREDICTION_OK) pass_over(item);
+  result_.progress.state = located.state;
+  const bool known = located.state != UNISIM_STATE_LOST;
+  result_.progress.frames_located += known ? 1 : 0;
+  for (Listener* listener : listeners_) listener->on_located(located);
+  if (known) give_out({frame.timestamp_ns, located.T_world_cam, -1});
+  return true;
 }
 
 bool Pipeline::Impl::take_keyframe(const unisim_frame& frame) {
@@ -292,7 +340,8 @@ void Pipeline::Impl::end(Outcome outcome, const std::string& message) {
 void Pipeline::Impl::tell_progress() {
   unisim_session_info info{};
   if (session_.get_info(&info) == UNISIM_OK) {
-    result_.progress.state = info.state;
+    // Nothing changes in the session while frames are only looked for in its map.
+    if (!localiser_) result_.progress.state = info.state;
     result_.progress.submaps = info.submaps;
   }
   for (Listener* listener : listeners_) listener->on_progress(result_.progress);
@@ -307,6 +356,10 @@ Pipeline::Pipeline(const Options& options, unisim_source* source, unisim_predict
 Pipeline::~Pipeline() = default;
 
 Preparation Pipeline::prepare() { return impl_->prepare(); }
+
+Preparation Pipeline::load(mapfile::MapFile* map) { return impl_->load(map); }
+
+const unisim_session_info& Pipeline::before() const { return impl_->before(); }
 
 const Result& Pipeline::run() { return impl_->run(); }
 

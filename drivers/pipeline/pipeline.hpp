@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/mapfile/map_file.hpp"
 #include "drivers/pipeline/heap_watch.hpp"
 #include "drivers/pipeline/keyframe_selector.hpp"
 #include "drivers/pipeline/latency_histogram.hpp"
@@ -28,6 +29,7 @@ struct Options {
   bool realtime = false;       ///< keep to the recorded times, drop late frames
   bool live = false;           ///< the source is a camera: of frames that wait the newest is taken
   double patience_s = 60.0;    ///< a source that gives nothing for so long has failed; 0: never
+  bool localise = false;       ///< look for each frame in the map of load(), which stays as it is
   bool decode_images = false;  ///< decode for the listeners what can be read, also where the
                                ///< predictor needs no images
 };
@@ -74,6 +76,13 @@ class Pipeline {
 
   /// Makes the session, so that a configuration it refuses is known before any frame is read.
   Preparation prepare();
+
+  /// Goes on with a saved map, which is forgotten then; once, before run(). Calls prepare() if that
+  /// has not been done; its answer is returned. Throws mapfile::Error.
+  Preparation load(mapfile::MapFile* map);
+
+  /// What the session had before the run: of a map that was loaded, else nothing.
+  const unisim_session_info& before() const;
 
   /// Runs the source to its end; once. Calls prepare() if that has not been done.
   const Result& run();

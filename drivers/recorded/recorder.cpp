@@ -8,6 +8,7 @@
 #include <new>
 #include <string>
 
+#include "drivers/common/has_maps.hpp"
 #include "drivers/common/has_places.hpp"
 #include "drivers/recorded/prediction_codec.hpp"
 #include "drivers/recorded/record_format.hpp"
@@ -179,6 +180,29 @@ void release_place(unisim_predictor* predictor, int32_t id) {
   recorder.inner->release_place(recorder.inner, id);
 }
 
+int save_map(unisim_predictor* predictor, unisim_map_write write, void* context) {
+  Recorder& recorder = self(predictor);
+  return recorder.inner->save_map(recorder.inner, write, context);
+}
+
+/// The recording would begin amidst a map that its replay does not have.
+int load_map(unisim_predictor* predictor, unisim_map_read read, void* context,
+             int32_t* next_keyframe) {
+  Recorder& recorder = self(predictor);
+  recorder.writer.stop("a run that goes on in a map is not recorded");
+  return recorder.inner->load_map(recorder.inner, read, context, next_keyframe);
+}
+
+int locate(unisim_predictor* predictor, const unisim_frame* frame, unisim_location* out) {
+  Recorder& recorder = self(predictor);
+  return recorder.inner->locate(recorder.inner, frame, out);
+}
+
+int map_pose(unisim_predictor* predictor, int32_t id, unisim_map_pose* out) {
+  Recorder& recorder = self(predictor);
+  return recorder.inner->map_pose(recorder.inner, id, out);
+}
+
 int32_t features(unisim_predictor* predictor, const unisim_feature** out) {
   Recorder& recorder = self(predictor);
   return recorder.inner->features(recorder.inner, out);
@@ -250,6 +274,12 @@ void fill_table(Recorder* recorder, unisim_predictor* inner) {
   recorder->window_message = inner->window_message != nullptr ? window_message : nullptr;
   recorder->destroy = destroy;
   recorder->features = inner->features != nullptr ? features : nullptr;
+  if (drivers::has_maps(*inner)) {
+    recorder->save_map = save_map;
+    recorder->load_map = load_map;
+    recorder->locate = locate;
+    recorder->map_pose = map_pose;
+  }
   if (!drivers::has_places(*inner)) return;
   recorder->place_descriptor = place_descriptor;
   recorder->release_place = release_place;
