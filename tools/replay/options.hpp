@@ -20,6 +20,9 @@ struct Options {
   std::string predictor = "geometric";
   std::string predictions;  ///< file of --predictor recorded
   std::string record;       ///< file to write, "" for none
+  std::string save_map;     ///< file for the map of the run, "" for none
+  std::string load_map;     ///< map to go on with, "" for none
+  bool localise = false;    ///< only look for frames in it
   std::string ground_truth;
   std::string mask;              ///< image that hides what goes with the camera, "" for none
   std::string model_pair;        ///< files of --predictor onnx

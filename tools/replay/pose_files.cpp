@@ -20,15 +20,6 @@ namespace {
   *text += line;
 }
 
-/// Seconds with all nine digits: a double would round present-day times.
-void append_seconds(std::string* text, int64_t time_ns) {
-  constexpr int64_t kSecond = 1000000000;
-  const bool negative = time_ns < 0;
-  const int64_t size = negative ? -time_ns : time_ns;
-  append(text, "%s%lld.%09lld", negative ? "-" : "", static_cast<long long>(size / kSecond),
-         static_cast<long long>(size % kSecond));
-}
-
 const char* asked_for(int32_t asked) {
   switch (asked) {
     case UNISIM_PLACE_LOST:
@@ -42,6 +33,16 @@ const char* asked_for(int32_t asked) {
 
 }  // namespace
 
+std::string seconds_text(int64_t time_ns) {
+  constexpr int64_t kSecond = 1000000000;
+  const bool negative = time_ns < 0;
+  const int64_t size = negative ? -time_ns : time_ns;
+  std::string text;
+  append(&text, "%s%lld.%09lld", negative ? "-" : "", static_cast<long long>(size / kSecond),
+         static_cast<long long>(size % kSecond));
+  return text;
+}
+
 std::string trajectory_header(const std::string& title, double scale) {
   std::string text = "# " + title + "\n";
   text += "# timestamp [s] tx ty tz qx qy qz qw; camera-to-world, OpenCV axes\n";
@@ -52,8 +53,7 @@ std::string trajectory_header(const std::string& title, double scale) {
 
 std::string trajectory_line(const unisim_stamped_pose& pose) {
   const unisim_sim3& T = pose.T_world_cam;
-  std::string text;
-  append_seconds(&text, pose.timestamp_ns);
+  std::string text = seconds_text(pose.timestamp_ns);
   append(&text, " %.10g %.10g %.10g %.10g %.10g %.10g %.10g\n", T.t[0], T.t[1], T.t[2], T.q[0],
          T.q[1], T.q[2], T.q[3]);
   return text;
@@ -70,7 +70,7 @@ std::string keyframe_table(const std::vector<KeyframeRow>& rows) {
   std::string text = "id,timestamp,scale,state,confidence,submap,covariance_trace,segment,frame\n";
   for (const KeyframeRow& row : rows) {
     append(&text, "%d,", row.pose.keyframe_id);
-    append_seconds(&text, row.pose.timestamp_ns);
+    text += seconds_text(row.pose.timestamp_ns);
     append(&text, ",%.10g,%s,%d,%d,", row.pose.T_world_kf.s, state_name(row.pose.state),
            row.pose.confidence, row.pose.submap_id);
     if (row.covariance_trace >= 0.0) append(&text, "%.6g", row.covariance_trace);

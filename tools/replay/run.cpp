@@ -18,6 +18,8 @@
 #include "tools/replay/inputs.hpp"
 #include "tools/replay/lcm_output.hpp"
 #include "tools/replay/live_trajectory.hpp"
+#include "tools/replay/localised.hpp"
+#include "tools/replay/maps.hpp"
 #include "tools/replay/output_folder.hpp"
 #include "tools/replay/page.hpp"
 #include "tools/replay/pose_files.hpp"
@@ -39,6 +41,7 @@ std::vector<std::string> output_names(const Options& options) {
                                     "places.csv", "summary.json"};
   names.emplace_back("map.ply");
   if (options.settings.pipeline.every_frame) names.emplace_back("trajectory_frames.tum");
+  if (!options.load_map.empty()) names.emplace_back("trajectory_map.tum");
   if (options.report) names.emplace_back("report.html");
   return names;
 }
@@ -125,6 +128,8 @@ struct RunState {
   const std::string& format;
   std::string recorder_problem;
   std::string publishing_problem;
+  const unisim_session_info& before;
+  const std::string* map_problem;  ///< why --save-map saved nothing, NULL where none is asked for
 };
 
 void say_problem(const Options& options, const std::string& line) {
@@ -168,6 +173,11 @@ void write_files(const Run& run, OutputFolder* folder) {
   if (run.options.settings.pipeline.every_frame) {
     folder->write_text("trajectory_frames.tum",
                        trajectory_text("all frames, final poses", run.data.frames, scale));
+  }
+  if (!run.options.load_map.empty()) {
+    folder->write_text("trajectory_map.tum",
+                       trajectory_text("keyframes of the map, of earlier runs first, final poses",
+                                       run.data.map, scale));
   }
   folder->write_text("keyframes.csv", keyframe_table(run.data.keyframes));
   folder->write_text("places.csv", place_table(run.result.predictor));
@@ -221,7 +231,8 @@ class Results {
   /// Writes what the run gave. @return exit code
   int write(const RunState& state, const std::vector<std::string>& messages) {
     const Options& options = state.options;
-    const RunData data = collect(state.session, record_, options.settings.pipeline.every_frame);
+    const RunData data =
+        collect(state.session, record_, options.settings.pipeline.every_frame, state.before);
     if (data.trajectory.empty()) return report_nothing(state.result, options);
     const Scores scores = score(state.truth, data);
     const Run run = {options, state.result, data, state.truth, scores, state.format};
@@ -229,6 +240,7 @@ class Results {
     write_files(run, &folder_);
     write_map(run, *cloud_, &folder_);
     write_page(run, messages, &folder_);
+    if (state.map_problem != nullptr) folder_.add(options.save_map, *state.map_problem);
     print_result(run, folder_);
     return conclude(run, folder_, state);
   }
@@ -240,8 +252,10 @@ class Results {
   std::optional<Cloud> cloud_;
 };
 
+/// @param earlier keyframes of the map that is gone on with
 unisim_config session_config(const Options& options, const Settings& settings,
-                             unisim_source* source, const unisim_predictor& predictor) {
+                             unisim_source* source, const unisim_predictor& predictor,
+                             int32_t earlier) {
   unisim_config config = settings.session;
   if (options.settings.max_keyframes_given) return config;
   const pipeline::Options& how = options.settings.pipeline;
@@ -250,58 +264,96 @@ unisim_config session_config(const Options& options, const Settings& settings,
       std::max(pipeline::keyframe_capacity(config, source->frame_count(source), how.keyframes,
                                            kUnknownLengthKeyframes, places),
                least_keyframes(config));
+  // A full batch keeps all of them.
+  if (config.window_submaps == 0) config.max_keyframes += earlier;
   return config;
 }
 
 /// The end of a run that writes nothing.
 int conclude(const pipeline::Result& result, const Options& options,
-             const std::string& publishing) {
+             std::initializer_list<std::string> problems) {
+  int code = exit_code(result.outcome, options);
   if (!result.message.empty()) say_problem(options, result.message);
-  if (!publishing.empty()) say_problem(options, publishing);
-  const int code = exit_code(result.outcome, options);
-  return code == tools::kExitDone && !publishing.empty() ? tools::kExitLimit : code;
+  for (const std::string& problem : problems) {
+    if (problem.empty()) continue;
+    say_problem(options, problem);
+    if (code == tools::kExitDone) code = tools::kExitLimit;
+  }
+  return code;
+}
+
+void tell(const std::vector<std::string>& notes, ProgressLine* progress) {
+  for (const std::string& note : notes) {
+    if (!note.empty()) progress->on_message(note);
+  }
+}
+
+void end_source(const Surroundings& around, const pipeline::Result& result, Input* input) {
+  if (around.ended) around.ended(input->source.get());
+  // Its last call may still come back.
+  if (result.source_held) static_cast<void>(input->source.release());
 }
 
 }  // namespace
 
 int run(const Options& options, const Surroundings& around, const std::atomic<bool>& stop) {
+  std::optional<mapfile::MapFile> map = open_map(options);
   std::optional<Results> results;
-  if (!options.out.empty()) results.emplace(options);
+  std::optional<LocalisedFrames> located;
+  if (!options.out.empty() && options.localise) located.emplace(options);
+  if (!options.out.empty() && !options.localise) results.emplace(options);
+  MapSaver saver(options);
   LcmOutput lcm(options);
   Input input = around.open();
   const std::string format = input.source->format;
   Settings settings = options.settings;
   const PredictorPtr predictor = open_predictor(options, &settings, &input.notes);
-  const unisim_config config = session_config(options, settings, input.source.get(), *predictor);
+  const int32_t earlier = map ? map->about().keyframes : 0;
+  const unisim_config config =
+      session_config(options, settings, input.source.get(), *predictor, earlier);
   ProgressLine progress(progress_style(options), around.line);
-  for (const std::string& note : input.notes) {
-    if (!note.empty()) progress.on_message(note);
-  }
+  tell(input.notes, &progress);
   std::vector<pipeline::Listener*> listeners = {&progress};
   if (results) {
     const auto own = results->listen(predictor.get(), options);
     listeners.insert(listeners.end(), own.begin(), own.end());
   }
+  if (located) listeners.push_back(&*located);
+  if (!options.save_map.empty()) listeners.push_back(&saver);
   listeners.insert(listeners.end(), input.listeners.begin(), input.listeners.end());
   if (lcm.listener() != nullptr) listeners.push_back(lcm.listener());
   pipeline::Options how = options.settings.pipeline;
   // The map has colours, also with no need of images.
   how.decode_images = results.has_value() || options.lcm_images;
+  how.localise = options.localise;
   pipeline::Pipeline pipeline(how, input.source.get(), predictor.get(), config, listeners, &stop,
                               tools::heap_counter());
   prepare(&pipeline);
+  if (map) hand_over(&*map, &pipeline);
+  map.reset();
   lcm.attach(pipeline);
   if (around.starts) around.starts(pipeline, predictor.get());
   const pipeline::Result& result = pipeline.run();
   progress.finish();
   lcm.finish();
-  if (around.ended) around.ended(input.source.get());
-  // Its last call may still come back.
-  if (result.source_held) static_cast<void>(input.source.release());
-  if (!results) return conclude(result, options, lcm.problem());
-  const RunState state = {options,      result, pipeline.session(),
-                          input.truth,  format, recorder_problem(options, predictor.get()),
-                          lcm.problem()};
+  end_source(around, result, &input);
+  if (located) {
+    const int code = conclude(result, options, {lcm.problem()});
+    const int written = located->write(result, input.truth, format);
+    return code == tools::kExitDone ? written : code;
+  }
+  const std::string map_problem =
+      options.save_map.empty() ? "" : saver.save(pipeline, predictor.get());
+  if (!results) return conclude(result, options, {lcm.problem(), map_problem});
+  const RunState state = {options,
+                          result,
+                          pipeline.session(),
+                          input.truth,
+                          format,
+                          recorder_problem(options, predictor.get()),
+                          lcm.problem(),
+                          pipeline.before(),
+                          options.save_map.empty() ? nullptr : &map_problem};
   return results->write(state, progress.messages());
 }
 

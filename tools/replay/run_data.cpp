@@ -42,18 +42,40 @@ void add_submaps(const unisim_session* session, const RunRecord& record, RunData
   }
 }
 
+void add_earlier(const unisim_session* session, const RunRecord& record, int32_t keyframes,
+                 RunData* data) {
+  for (int32_t id = 0; id < keyframes; ++id) {
+    unisim_pose pose{};
+    if (!record.poses().read(session, id, &pose) || pose.confidence == 0) continue;
+    data->map.push_back({pose.timestamp_ns, pose.T_world_kf});
+  }
+}
+
+void take_away(const unisim_session_info& before, unisim_session_info* info) {
+  info->keyframes -= before.keyframes;
+  info->posed_keyframes -= before.posed_keyframes;
+  info->submaps -= before.submaps;
+  info->lost_events -= before.lost_events;
+  info->pairs_refused -= before.pairs_refused;
+  info->submaps_refused -= before.submaps_refused;
+}
+
 }  // namespace
 
-RunData collect(unisim_session* session, const RunRecord& record, bool every_frame) {
+RunData collect(unisim_session* session, const RunRecord& record, bool every_frame,
+                const unisim_session_info& before) {
   RunData data;
   data.session.struct_size = sizeof data.session;
   if (unisim_get_info(session, &data.session) != UNISIM_OK) return data;
-  for (int32_t id = 0; id < data.session.keyframes; ++id) {
+  add_earlier(session, record, before.keyframes, &data);
+  for (int32_t id = before.keyframes; id < data.session.keyframes; ++id) {
     unisim_pose pose;
     if (!record.poses().read(session, id, &pose)) continue;
     data.keyframes.push_back({pose, record.frame_of(id), covariance_trace(session, id)});
     if (pose.confidence > 0) data.trajectory.push_back({pose.timestamp_ns, pose.T_world_kf});
   }
+  data.map.insert(data.map.end(), data.trajectory.begin(), data.trajectory.end());
+  take_away(before, &data.session);
   for (int64_t k = 0; k < record.live().size(); ++k) data.live.push_back(record.live().get(k));
   if (every_frame) add_between(record, &data);
   add_submaps(session, record, &data);

@@ -22,11 +22,15 @@ struct RunData {
   std::vector<unisim_stamped_pose> trajectory;  ///< keyframes whose pose a prediction supports
   std::vector<unisim_stamped_pose> live;        ///< as first given out
   std::vector<unisim_stamped_pose> frames;      ///< all frames, with every_frame
-  std::vector<double> submap_scale;  ///< by submap id: its unit to the world, 0 not known
-  unisim_session_info session{};
+  std::vector<unisim_stamped_pose> map;  ///< keyframes of earlier runs that this one began with,
+                                         ///< then those of `trajectory`
+  std::vector<double> submap_scale;      ///< by submap id: its unit to the world, 0 not known
+  unisim_session_info session{};  ///< counts are those of this run, `segments` of the whole map
 };
 
 /// Reads everything out of the session and of the record of its run.
-RunData collect(unisim_session* session, const RunRecord& record, bool every_frame);
+/// @param before what the session had from earlier runs, which counts for none of this one
+RunData collect(unisim_session* session, const RunRecord& record, bool every_frame,
+                const unisim_session_info& before);
 
 }  // namespace unisim::replay

@@ -36,6 +36,7 @@ RunOptions::RunOptions(CLI::App* app, Options* options) : options_(options) {
   options_->settings = default_settings();
   add_camera_options(app);
   add_method_options(app);
+  add_map_options(app);
   add_model_options(app);
   add_output_options(app);
   add_lcm_options(app);
@@ -87,6 +88,17 @@ void RunOptions::add_method_options(CLI::App* app) {
                   "or a group: v2s s2s")
       ->delimiter(',')
       ->check(CLI::IsMember(kFactors));
+}
+
+void RunOptions::add_map_options(CLI::App* app) {
+  const char* const group = "Maps that outlive the run";
+  app->add_option("--save-map", options_->save_map, "write the map of the run to this file")
+      ->group(group);
+  app->add_option("--load-map", options_->load_map, "go on in the map of an earlier run")
+      ->group(group);
+  app->add_flag("--localise", options_->localise,
+                "only look for frames in the map of --load-map, which stays as it is")
+      ->group(group);
 }
 
 void RunOptions::add_model_options(CLI::App* app) {
@@ -201,7 +213,27 @@ void RunOptions::take_camera() {
   }
 }
 
+void RunOptions::check_maps() const {
+  const Options& options = *options_;
+  const auto require = [](bool good, const std::string& line) {
+    if (!good) throw tools::Failure(tools::kExitUsage, line);
+  };
+  const char* const kept =
+      ": maps are kept by the geometric predictor; leave it away or use --predictor geometric";
+  const bool keeps = options.predictor == "geometric";
+  require(keeps || options.save_map.empty(), std::string("--save-map") + kept);
+  require(keeps || options.load_map.empty(), std::string("--load-map") + kept);
+  require(!options.localise || !options.load_map.empty(), "--localise needs --load-map FILE");
+  require(!options.localise || options.save_map.empty(),
+          "--localise leaves the map as it is: there is nothing for --save-map");
+  require(options.load_map.empty() || options.record.empty(),
+          "--record stores a run from its beginning: it does not go with --load-map");
+  require(options.load_map.empty() || options.settings.geometric.places != 0,
+          "--load-map needs places: a frame is found in a map by them");
+}
+
 void RunOptions::check() const {
+  check_maps();
   const Options& options = *options_;
   const auto require = [](bool good, const char* line) {
     if (!good) throw tools::Failure(tools::kExitUsage, line);

@@ -29,6 +29,8 @@ class RunOptions {
  private:
   void add_method_options(CLI::App* app);
   void add_camera_options(CLI::App* app);
+  void add_map_options(CLI::App* app);
+  void check_maps() const;
   void add_model_options(CLI::App* app);
   void add_output_options(CLI::App* app);
   void add_lcm_options(CLI::App* app);

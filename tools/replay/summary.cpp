@@ -17,6 +17,8 @@ namespace {
 
 using tools::Json;
 
+Json map_json(const std::string& path) { return path.empty() ? Json(nullptr) : Json(path); }
+
 Json rmse_of(const std::optional<eval::Ate>& ate) {
   return ate ? Json(ate->error.rmse) : Json(nullptr);
 }
@@ -186,6 +188,8 @@ Json summary_json(const Run& run) {
           {"segments_joined", run.result.predictor.joined},
           {"segment_scores", segments_json(run.scores)},
           {"segments", info.segments},
+          {"map_loaded", map_json(run.options.load_map)},
+          {"map_saved", map_json(run.options.save_map)},
           {"pairs_refused", info.pairs_refused},
           {"submaps_refused", info.submaps_refused},
           {"focal_px", focal > 0.0 ? Json(focal) : Json(nullptr)},
