@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Maps saved and loaded: argument checks and calls into core.
-#include <cstring>
-
 #include "capi/src/handle.hpp"
 #include "capi/src/read_write.hpp"
 #include "capi/src/struct_size.hpp"
@@ -24,9 +22,10 @@ static_assert(UNISIM_LOAD_OK == static_cast<int>(LoadProblem::kNone) &&
 
 namespace {
 
+/// The rest of `to` is zero.
 template <size_t N>
 void copy_text(const char* from, char (&to)[N]) {
-  std::strncpy(to, from, N - 1);
+  for (size_t k = 0; k + 1 < N && from[k] != '\0'; ++k) to[k] = from[k];
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ class Graph {
                                 (stamps.held > revision ? kNodeHeld : 0));
   }
 
-  // ---- saving and loading (graph_archive.cpp); into a graph that is empty
+  // ---- saving and loading (graph_snapshot.cpp); into a graph that is empty
   // Nodes and edges are visited by those they belong to: to load, each place is taken once, and the
   // order in which places will be used again is kept, on which the order of all sums depends.
   void visit_sizes(Archive* archive);

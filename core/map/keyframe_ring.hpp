@@ -82,7 +82,7 @@ class KeyframeRing {
     return has(keyframe.held_from) ? keyframe.held_from : -1;
   }
 
-  /// Save or load, with the nodes (keyframe_ring_archive.cpp).
+  /// Save or load, with the nodes (keyframe_ring_snapshot.cpp).
   void visit(Archive* archive, Graph* graph);
 
  private:

@@ -156,7 +156,7 @@ class SubmapTable {
   void release_views(Submap* submap);
   void erase(int32_t id);
 
-  // ---- saving and loading (submap_table_archive.cpp)
+  // ---- saving and loading (submap_table_snapshot.cpp)
   /// Is there a window with this id, not retired, that has this view?
   bool has_view(int32_t id, int32_t k) const;
   /// Submaps, with the nodes that are their own; into a table that is empty.

@@ -95,7 +95,7 @@ class Skeleton {
   const LoopEdges& loop_edges() const { return loop_edges_; }
   int32_t unread() const { return outbox_.unread(); }
 
-  // ---- saving and loading (skeleton/skeleton_archive.cpp, skeleton/skeleton_check.cpp)
+  // ---- saving and loading (skeleton/skeleton_snapshot.cpp, skeleton/skeleton_check.cpp)
   /// All but edges; keyframes and submaps are there. To load, both are checked with it.
   void visit(Archive* archive);
   /// Edges of the map, those between windows that share keyframes included.
@@ -132,7 +132,7 @@ class Skeleton {
   void detach_loop_views(int32_t node);
   void attach_loop_views();
 
-  // skeleton/skeleton_archive.cpp
+  // skeleton/skeleton_snapshot.cpp
   void find_live_submaps(Archive* archive);
   void visit_nodes(Archive* archive);
   void visit_view_edges(Archive* archive, const Submap& submap, SubmapView* view);

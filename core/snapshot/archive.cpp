@@ -68,7 +68,7 @@ void Archive::magic() {
     return;
   }
   fetch(start, sizeof start);
-  require(std::memcmp(start, kMagic, sizeof kMagic) == 0, LoadProblem::kMagic);
+  require(std::equal(kMagic, kMagic + sizeof kMagic, start), LoadProblem::kMagic);
   require(get<uint32_t>(start + sizeof kMagic) == kVersion, LoadProblem::kVersion);
 }
 
@@ -83,13 +83,15 @@ void Archive::open(const char* name) {
   size_ = 0;
   measuring_ = !loading();
   unsigned char expected[kNameBytes] = {};
-  std::memcpy(expected, name, std::strlen(name));
+  for (size_t k = 0; k < kNameBytes && name[k] != '\0'; ++k) {
+    expected[k] = static_cast<unsigned char>(name[k]);
+  }
   if (!loading()) {
     std::memcpy(header_, expected, kNameBytes);
     return;
   }
   fetch(header_, kHeaderBytes);
-  require(std::memcmp(header_, expected, kNameBytes) == 0, LoadProblem::kContent);
+  require(std::equal(expected, expected + kNameBytes, header_), LoadProblem::kContent);
   require(get<uint32_t>(header_ + kNameBytes) == kSectionVersion, LoadProblem::kVersion);
   if (ok()) size_ = get<uint64_t>(header_ + kSizeAt);
 }

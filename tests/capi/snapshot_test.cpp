@@ -2,6 +2,7 @@
 // A map that outlives the run: loaded, it goes on as if it had not been interrupted.
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "tests/capi/world.hpp"
 #include "tests/support/snapshot_bytes.hpp"
@@ -153,6 +154,60 @@ TEST_CASE("a loop over the break joins what came after it to the map") {
   CHECK(next.pose(129).state == UNISIM_STATE_TRACKING);
   CHECK(next.info().state == UNISIM_STATE_RELOCALISED);
   CHECK(worst_position_error(next, world, 100) < 0.3);
+}
+
+TEST_CASE("a pair over the break goes on in the segment of the map") {
+  const int32_t window_submaps = GENERATE(0, 2);
+  const unisim_config config = small_config(window_submaps);
+  World world(200, 3U, kNoise);
+  Host host(config);
+  feed(host, world, 100);
+  Copy copy(host, config);
+  Host& next = copy.host;
+  for (int32_t id = 100; id < 103; ++id) {
+    CHECK(next.add_keyframe_at(id) == id);
+    if (id < 102) CHECK(next.reject_pair() == UNISIM_OK);
+  }
+  REQUIRE(next.add_pair(world.pair(99, 102)) == UNISIM_OK);
+  CHECK(next.info().state == UNISIM_STATE_RELOCALISED);
+  CHECK(next.pose(102).segment == 0);
+  for (int32_t id = 103; id < 120; ++id) {
+    CHECK(next.add_keyframe_at(id) == id);
+    REQUIRE(next.add_pair(world.pair(id - 1)) == UNISIM_OK);
+    const unisim_request request = next.next(UNISIM_REQUEST_WINDOW);
+    if (request.kind == 0) continue;
+    REQUIRE(next.add_submap(world.views(ids(request.keyframe_ids[0], request.count))) >= 0);
+    next.optimize();
+  }
+  CHECK(next.info().segments == 1);
+  CHECK(worst_position_error(next, world, 120) < 0.3);
+}
+
+TEST_CASE("a map in two segments goes on, and is joined, with the same bits") {
+  const int32_t window_submaps = GENERATE(0, 2);
+  const unisim_config config = small_config(window_submaps);
+  World world(200, 3U, kNoise);
+  Host host(config);
+  feed(host, world, 60);
+  for (int32_t k = 0; k < 12; ++k) {
+    host.add_keyframe();
+    REQUIRE(host.reject_pair() == UNISIM_OK);
+    const unisim_request request = host.next(UNISIM_REQUEST_WINDOW);
+    if (request.kind != 0) REQUIRE(unisim_reject_request(host, &request) == UNISIM_OK);
+  }
+  feed(host, world, 60);
+  REQUIRE(host.info().segments == 2);
+  World again = world;
+  Copy copy(host, config);
+  CHECK(same_poses(host, copy.host));
+  for (auto [session, truth] : {std::pair<Host*, World*>{&host, &world}, {&copy.host, &again}}) {
+    REQUIRE(session->add_loop(truth->views(both(30, 110))) >= 0);
+    session->optimize();
+    feed(*session, *truth, 40);
+  }
+  CHECK(host.info().segments == 1);
+  CHECK(same_poses(host, copy.host));
+  CHECK(same_info(host, copy.host));
 }
 
 TEST_CASE("within a run time goes on") {

@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Random call sequences with garbage in them: never a crash, a broken session or a bad pose.
-#include <cmath>
 #include <memory>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/proper_pose.hpp"
 #include "tests/support/random_config.hpp"
 #include "tests/support/random_session.hpp"
 
 using namespace unisim::test;
 
 namespace {
-
-bool is_pose(const unisim_sim3& T) {
-  double norm = 0.0;
-  for (const double value : T.q) norm += value * value;
-  bool finite = std::isfinite(T.s) && T.s > 0.0;
-  for (const double value : T.t) finite = finite && std::isfinite(value);
-  return finite && std::abs(norm - 1.0) < 1e-6;
-}
 
 void run(uint32_t seed, double garbage) {
   const unisim_config config = random_config(seed);

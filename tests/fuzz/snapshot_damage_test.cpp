@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Snapshots that are cut, damaged or made up: refused by the name of the part, or a map that holds.
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <random>
 
 #include "tests/support/catch.hpp"
 #include "tests/support/owned_session.hpp"
+#include "tests/support/proper_pose.hpp"
 #include "tests/support/random_config.hpp"
 #include "tests/support/random_session.hpp"
 #include "tests/support/snapshot_bytes.hpp"
@@ -56,6 +56,18 @@ bool is_fresh(const unisim_session* session) {
   const unisim_session_info info = info_of(session);
   return info.keyframes == 0 && info.submaps == 0 && info.loops == 0 && info.segments == 0 &&
          info.state == UNISIM_STATE_INIT;
+}
+
+/// Are all poses that come out such?
+bool has_poses(const unisim_session* session) {
+  const unisim_session_info info = info_of(session);
+  for (int32_t id = info.first_keyframe; id < info.keyframes; ++id) {
+    unisim_pose pose = {};
+    pose.struct_size = sizeof pose;
+    const bool there = unisim_get_pose(session, id, &pose) == UNISIM_OK;
+    if (there && !is_pose(pose.T_world_kf)) return false;
+  }
+  return true;
 }
 
 const SnapshotSection* section_at(const std::vector<SnapshotSection>& sections, size_t at) {
@@ -195,6 +207,7 @@ TEST_CASE("made-up snapshots with right checksums are refused or are maps") {
       while (caller.step()) {
       }
       if (caller.count(UNISIM_ERR_INTERNAL) != 0) FAIL("broken, seed " << seed << "/" << trial);
+      if (!has_poses(owned.session)) FAIL("no proper pose, seed " << seed << "/" << trial);
     }
   }
   CHECK(refused > 100);

@@ -95,7 +95,7 @@ void SubmapTable::visit_submap(Archive* archive, Graph* graph, Submap* submap) {
   }
   for (int32_t k = 0; k < submap->count; ++k) {
     visit_view(archive, &view(*submap, k));
-    view(*submap, k).keyframe = keyframe(*submap, k);
+    if (archive->loading()) view(*submap, k).keyframe = keyframe(*submap, k);
   }
 }
 
