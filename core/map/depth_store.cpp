@@ -56,7 +56,7 @@ void DepthStore::visit(Archive* archive) {
   for (const Source& source : sources_) count += source.keyframe >= 0 ? 1 : 0;
   const int32_t oldest = count == slots ? next_ : 0;
   archive->index(&count, 0, std::numeric_limits<int32_t>::max());
-  const int32_t left_out = std::max(0, count - slots);
+  const int32_t left_out = std::max<int32_t>(0, count - slots);
   for (int32_t k = 0; archive->ok() && k < count; ++k) {
     const int32_t slot = archive->loading() ? k - left_out : (oldest + k) % slots;
     visit_map(archive, slot);

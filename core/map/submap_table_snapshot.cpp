@@ -65,7 +65,7 @@ void SubmapTable::visit(Archive* archive, Graph* graph) {
 }
 
 void SubmapTable::visit_submap(Archive* archive, Graph* graph, Submap* submap) {
-  archive->index(&submap->id, 0, std::max(0, next_id_ - 1));
+  archive->index(&submap->id, 0, std::max<int32_t>(0, next_id_ - 1));
   archive->index(&submap->segment, 0, kLastId);
   archive->flag(&submap->removed);
   archive->index(&submap->loop_edge, -1, kLastId);

@@ -50,7 +50,7 @@ void Skeleton::find_live_submaps(Archive* archive) {
 void Skeleton::visit_nodes(Archive* archive) {
   int32_t count = nodes_.size();
   archive->index(&count, 0, kMany);
-  archive->need("skeleton_capacity", count, std::max(0, nodes_.capacity() - 1));
+  archive->need("skeleton_capacity", count, std::max<int32_t>(0, nodes_.capacity() - 1));
   if (!archive->ok()) return;
   if (archive->loading()) nodes_.resize(count);
   int64_t windows = 0;

@@ -294,12 +294,54 @@ TEST_CASE("a session that is too small or another one says which number") {
   report = refused(config);
   CHECK(report.problem == UNISIM_LOAD_SETTING);
   CHECK(std::string(report.setting) == "window_submaps");
-  config = small_config(2);
-  config.window_size = 6;
-  report = refused(config);
-  CHECK(std::string(report.setting) == "window_size");
-  CHECK(report.needed == 8);
-  CHECK(report.given == 6);
+  struct Case {
+    const char* setting;
+    int32_t unisim_config::* field;
+    int32_t value;
+    int64_t needed;
+    int32_t problem;
+  };
+  for (const Case& c : {
+           Case{"window_size", &unisim_config::window_size, 6, 8, UNISIM_LOAD_CAPACITY},
+           Case{"window_overlap", &unisim_config::window_overlap, 1, 2, UNISIM_LOAD_CAPACITY},
+           Case{"depth_grid_width", &unisim_config::depth_grid_width, 40, 80, UNISIM_LOAD_SETTING},
+           Case{"depth_grid_height", &unisim_config::depth_grid_height, 90, 60,
+                UNISIM_LOAD_SETTING},
+       }) {
+    config = small_config(2);
+    config.*c.field = c.value;
+    report = refused(config);
+    CHECK(std::string(report.setting) == c.setting);
+    CHECK(report.needed == c.needed);
+    CHECK(report.given == c.value);
+    CHECK(report.problem == c.problem);
+  }
+}
+
+TEST_CASE("a session with fewer windows, skeleton nodes or loops than the map has says so") {
+  World world(200, 3U, kNoise);
+  unisim_config config = small_config(3);
+  config.skeleton_capacity = 12;
+  Host host(config);
+  feed(host, world, 180);
+  for (int32_t k = 0; k < 5; ++k) REQUIRE(host.add_loop(world.views(both(20 + k, 170))) >= 0);
+  SnapshotBytes snapshot = save(host);
+  const auto setting_of = [&](const unisim_config& smaller, int64_t needed) {
+    Host other(smaller);
+    CHECK(load(other, &snapshot) == UNISIM_ERR_CAPACITY);
+    CHECK(load_report(other).problem == UNISIM_LOAD_CAPACITY);
+    CHECK(load_report(other).needed == needed);
+    return std::string(load_report(other).setting);
+  };
+  unisim_config smaller = config;
+  smaller.window_submaps = 2;
+  CHECK(setting_of(smaller, 3) == "window_submaps");
+  smaller = config;
+  smaller.skeleton_capacity = 8;
+  CHECK(setting_of(smaller, 12) == "skeleton_capacity");
+  smaller = config;
+  smaller.max_loops = 2;
+  CHECK(setting_of(smaller, 3) == "max_loops");
 }
 
 TEST_CASE("a larger session takes the map") {
