@@ -23,9 +23,9 @@ static_assert(UNISIM_LOAD_OK == static_cast<int>(LoadProblem::kNone) &&
 namespace {
 
 /// The rest of `to` is zero.
-template <size_t N>
-void copy_text(const char* from, char (&to)[N]) {
-  for (size_t k = 0; k + 1 < N && from[k] != '\0'; ++k) to[k] = from[k];
+template <size_t kSize>
+void copy_text(const char* from, char (&to)[kSize]) {
+  for (size_t k = 0; k + 1 < kSize && from[k] != '\0'; ++k) to[k] = from[k];
 }
 
 }  // namespace

@@ -32,6 +32,14 @@ Unsigned get(const unsigned char* bytes) {
   return static_cast<Unsigned>(value);
 }
 
+// Where there is no operating system there may be no memcmp().
+bool same_bytes(const unsigned char* a, const unsigned char* b, size_t count) {
+  for (size_t i = 0; i < count; ++i) {
+    if (a[i] != b[i]) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void Archive::note(LoadProblem problem, const char* setting, int64_t needed, int64_t given) {
@@ -68,7 +76,7 @@ void Archive::magic() {
     return;
   }
   fetch(start, sizeof start);
-  require(std::equal(kMagic, kMagic + sizeof kMagic, start), LoadProblem::kMagic);
+  require(same_bytes(start, kMagic, sizeof kMagic), LoadProblem::kMagic);
   require(get<uint32_t>(start + sizeof kMagic) == kVersion, LoadProblem::kVersion);
 }
 
@@ -91,7 +99,7 @@ void Archive::open(const char* name) {
     return;
   }
   fetch(header_, kHeaderBytes);
-  require(std::equal(expected, expected + kNameBytes, header_), LoadProblem::kContent);
+  require(same_bytes(header_, expected, kNameBytes), LoadProblem::kContent);
   require(get<uint32_t>(header_ + kNameBytes) == kSectionVersion, LoadProblem::kVersion);
   if (ok()) size_ = get<uint64_t>(header_ + kSizeAt);
 }
