@@ -72,7 +72,8 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_load_map(unisim_session* sessio
 #define UNISIM_LOAD_CAPACITY 6 /**< a number of the configuration is too small */
 #define UNISIM_LOAD_SETTING 7  /**< a setting of the configuration is another one */
 
-/** What the last unisim_load_map() of a session found; none since create or reset: UNISIM_LOAD_OK. */
+/** What the last unisim_load_map() of a session found; none since create or reset: UNISIM_LOAD_OK.
+ */
 typedef struct unisim_load_report {
   uint32_t struct_size; /**< sizeof this struct, set by the caller */
   int32_t problem;      /**< UNISIM_LOAD_* */
