@@ -16,7 +16,7 @@ usage() {
   cat <<TEXT
 usage: tools/fetch_aarch64_sysroot.sh
 Puts files of Debian's packages for arm64 ($PACKAGES, and all that these need) into
-$SYSROOT: some 200 MB are downloaded, 700 MB lie there. What is there already is not fetched again.
+$SYSROOT: some 200 MB are downloaded, 1 GB lies there. What is there already is not fetched again.
 TEXT
 }
 
