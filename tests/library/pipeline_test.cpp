@@ -2,6 +2,7 @@
 // Runs behind the C header.
 #include "drivers/library/pipeline.h"
 
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -23,7 +24,8 @@ struct Told {
   std::vector<unisim_pose> keyframes;
   std::vector<int32_t> states;
   std::vector<std::string> lines;
-  unisim_pipeline** stops_after_pose = nullptr;  // asks the run to end at the tenth pose
+  // Asks the run to end at the tenth pose.
+  std::atomic<unisim_pipeline*>* stops_after_pose = nullptr;
 };
 
 Told* of(void* user) { return static_cast<Told*>(user); }
@@ -43,7 +45,7 @@ struct CRun {
     config.on_pose = [](const unisim_live_pose* pose, void* user) {
       of(user)->poses.push_back(*pose);
       if (of(user)->stops_after_pose != nullptr && of(user)->poses.size() == 10) {
-        unisim_pipeline_ask_stop(*of(user)->stops_after_pose);
+        unisim_pipeline_ask_stop(of(user)->stops_after_pose->load());
       }
     };
     config.on_correction = [](const unisim_correction* one, void* user) {
@@ -129,16 +131,16 @@ TEST_CASE("corrections take the poses given out before to where they are now") {
 
 TEST_CASE("a callback and any other thread may ask a run to stop") {
   CRun run(1000000);
-  unisim_pipeline* pipeline = nullptr;
+  std::atomic<unisim_pipeline*> pipeline{nullptr};
   SECTION("callback") { run.told.stops_after_pose = &pipeline; }
   SECTION("other thread") {}
   run.source.before_frame = [&](int64_t) {
     // The callback needs the pipeline's address, which start() is about to give.
-    while (pipeline == nullptr) std::this_thread::yield();
+    while (pipeline.load() == nullptr) std::this_thread::yield();
   };
   unisim_pipeline* const started = run.start();
   REQUIRE(started != nullptr);
-  pipeline = started;
+  pipeline.store(started);
   if (run.told.stops_after_pose == nullptr) unisim_pipeline_ask_stop(started);
   CHECK(wait_for_end(started) == UNISIM_PIPELINE_STOPPED);
   CHECK(unisim_pipeline_stop(started) == UNISIM_PIPELINE_STOPPED);
