@@ -9,6 +9,7 @@ install(TARGETS unisim unisim_static EXPORT unisim-targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT unisim_dev)
 install(FILES
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/config.h
+  ${PROJECT_SOURCE_DIR}/capi/include/unisim/metric.h
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/places.h
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/results.h
   ${PROJECT_SOURCE_DIR}/capi/include/unisim/snapshot.h

@@ -9,7 +9,7 @@ namespace {
 
 Span<unsigned char> take_session(Arena& arena) {
   for (const char* name : {"session", "keyframes", "windows", "submaps", "depth", "graph", "solver",
-                           "poses before", "skeleton", "condenser"}) {
+                           "poses before", "skeleton", "condenser", "metric"}) {
     arena.begin_part(name);
   }
   return arena.begin_part("session").take<unsigned char>(static_cast<int32_t>(sizeof(Session)));
@@ -35,6 +35,7 @@ Session::Session(const SessionConfig& config, const SessionCapacity& capacity, A
       before_(arena.begin_part("poses before").take<Sim3>(capacity.graph.nodes)),
       watch_(map_),
       skeleton_(arena, capacity, map_, ties_, watch_),
+      distances_(arena.begin_part("metric"), capacity.graph.nodes, map_),
       refusals_(map_.config.log),
       first_of_run_(config.first_keyframe_id) {}
 

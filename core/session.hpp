@@ -11,6 +11,7 @@
 #include "core/base/status.hpp"
 #include "core/graph/graph.hpp"
 #include "core/map/depth_book.hpp"
+#include "core/map/distance_book.hpp"
 #include "core/map/gauge.hpp"
 #include "core/map/keyframe_ring.hpp"
 #include "core/map/map.hpp"
@@ -51,6 +52,43 @@ struct SubmapUpdate {
   Span<const Sim3> T_submap_kf;
   Span<const double> log_depth_ratio;
   double center_sigma = 0.0;
+};
+
+/// What says how long a metre is; numbers of UNISIM_METRIC_*.
+enum class MetricSource : int32_t { kDistance = 0, kOdometry = 1, kHeight = 2, kModel = 3 };
+inline constexpr int32_t kMetricSources = 4;
+
+/// Checked measurement of a distance.
+struct DistanceInput {
+  Distance distance;
+  MetricSource source = MetricSource::kDistance;
+  double common_sigma = 0.0;  ///< of all of this source together, of the logarithm
+};
+
+/// Checked measurement of a submap's unit.
+struct UnitInput {
+  int32_t submap = -1;
+  double log_metres = 0.0;  ///< of one unit of its prediction as it was last measured
+  double sigma = 0.0;       ///< of that
+  MetricSource source = MetricSource::kModel;
+  double common_sigma = 0.0;
+};
+
+/// How much each source has said.
+struct MetricSources {
+  double information[kMetricSources] = {};
+  double common_sigma[kMetricSources] = {};
+
+  void add(MetricSource source, double sigma, double common);
+  void visit(Archive* archive);
+  /// Variance of what the measurements of a source have in common, by their shares.
+  double common_variance() const;
+};
+
+/// What is known of the metre of a segment.
+struct ScaleOutput {
+  double log_metres_per_unit = 0.0;  ///< world unit
+  double sigma = 0.0;                ///< of that
 };
 
 /// Pose of a keyframe as it is given out.
@@ -115,6 +153,15 @@ class Session {
   /// @param[out] id -1 when refused for its quality
   Status add_submap(const SubmapInput& input, bool is_loop, int32_t* id);
   Status update_submap(const SubmapUpdate& update);
+
+  // ---- metric scale (session/metric.cpp)
+  /// @return kOk; kRetired when a keyframe is no longer kept; kInvalidArgument for an unknown one
+  Status add_distance(const DistanceInput& input);
+  /// @return kOk; kRetired; kInvalidArgument for what is no window's submap
+  Status add_unit(const UnitInput& input);
+  /// @return kOk; kNotReady when nothing is known of the segment's scale
+  Status scale(int32_t segment, ScaleOutput* scale);
+  const DistanceBook& distances() const { return distances_; }
 
   // ---- requests (map/request_schedule.cpp)
   Status next_request(uint32_t kinds, Request* request) const {
@@ -212,6 +259,11 @@ class Session {
   void join_segment(const Submap& submap, int32_t segment, int32_t into);
   void move_retired(int32_t segment, const Sim3& correction);
 
+  // session/metric.cpp
+  Status show_metres();
+  Status measure_metre(int32_t segment);
+  void measure_new_metres();
+
   // session/revision.cpp
   bool is_in_range(const SubmapUpdate& update, const Submap& submap) const;
   void update_views(const SubmapUpdate& update, Submap* submap);
@@ -249,6 +301,8 @@ class Session {
   LoopWatch watch_;
   Skeleton skeleton_;
 
+  DistanceBook distances_;
+  MetricSources sources_;
   SessionCounts counts_;
   Refusals refusals_;
   LoadReport load_report_;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/map/metric_scale.hpp"
+
 namespace unisim {
 namespace {
 
@@ -29,7 +31,7 @@ int64_t factor_blocks(const SessionConfig& config, const SessionCapacity& capaci
   const int64_t keyframe_part =
       static_cast<int64_t>(capacity.keyframes) * (over + 3) + 2 * loops * config.window_size;
   const int64_t chained = static_cast<int64_t>(capacity.submaps.windows) * (over + 1 + loops) +
-                          dense_factor_blocks(config.max_loops);
+                          dense_factor_blocks(config.max_loops) + capacity.submaps.windows;
   const int64_t submap_part =
       std::min(chained, dense_factor_blocks(capacity.submaps.windows + capacity.submaps.loops));
   return std::min(keyframe_part + submap_part, dense_factor_blocks(capacity.graph.nodes));
@@ -48,11 +50,11 @@ void size_batch(const SessionConfig& config, SessionCapacity* capacity) {
       windows * std::min(2 * windows_over_keyframe(config), config.window_overlap);
   const int32_t submaps = windows + config.max_loops;
   const int32_t views = submaps * config.window_size;
-  capacity->graph.nodes = capacity->keyframes + submaps;
+  capacity->graph.nodes = capacity->keyframes + submaps + kMostMetres;
   capacity->graph.edges =
-      capacity->keyframes + 2 * views + capacity->submaps.shared + capacity->window_pairs;
+      capacity->keyframes + 2 * views + capacity->submaps.shared + capacity->window_pairs + windows;
   capacity->graph.measurements = capacity->keyframes + views + 2 * capacity->submaps.shared;
-  capacity->solver.pairs = capacity->keyframes + views + capacity->window_pairs;
+  capacity->solver.pairs = capacity->keyframes + views + capacity->window_pairs + windows;
   capacity->solver.factor_blocks = static_cast<int32_t>(factor_blocks(config, *capacity));
 }
 
@@ -96,15 +98,17 @@ void size_window(const SessionConfig& config, SessionCapacity* capacity) {
 
   const int32_t nodes = capacity->live_nodes + w;
   const int32_t views = live * w;
-  capacity->graph.nodes = nodes + live + capacity->skeleton + 1;
+  const int32_t submaps = live + capacity->skeleton + 1;
+  capacity->graph.nodes = nodes + submaps + kMostMetres;
   capacity->graph.chains = 2 * (capacity->skeleton + capacity->live_windows) + capacity->loop_edges;
   capacity->graph.edges = nodes + 2 * views + capacity->submaps.shared + capacity->window_pairs +
-                          capacity->graph.chains;
+                          capacity->graph.chains + submaps;
   capacity->graph.measurements =
       nodes + 2 * views + 2 * capacity->submaps.shared + capacity->graph.chains;
-  capacity->solver.pairs = nodes + views + capacity->window_pairs + capacity->graph.chains;
+  capacity->solver.pairs =
+      nodes + views + capacity->window_pairs + capacity->graph.chains + submaps;
   const int64_t blocks = static_cast<int64_t>(nodes) * (windows_over_keyframe(config) + 3) +
-                         2 * static_cast<int64_t>(views) + dense_factor_blocks(live) +
+                         2 * static_cast<int64_t>(views) + dense_factor_blocks(live) + submaps +
                          static_cast<int64_t>(capacity->skeleton) * kBlocksPerSkeletonNode;
   capacity->solver.factor_blocks =
       static_cast<int32_t>(std::min(blocks, dense_factor_blocks(capacity->graph.nodes)));

@@ -72,6 +72,18 @@ struct FirstSize<unisim_load_report> {
   static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_load_report, given);
 };
 template <>
+struct FirstSize<unisim_distance> {
+  static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_distance, common_sigma);
+};
+template <>
+struct FirstSize<unisim_submap_unit> {
+  static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_submap_unit, common_sigma);
+};
+template <>
+struct FirstSize<unisim_scale> {
+  static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_scale, lost);
+};
+template <>
 struct FirstSize<unisim_places_config> {
   static constexpr size_t kBytes = UNISIM_FIRST_SIZE(unisim_places_config, same_place);
 };

@@ -9,8 +9,9 @@
 
 namespace unisim {
 
-/// A skeleton node is a submap whose keyframes have left the graph.
-enum class NodeKind : uint8_t { kKeyframe, kSubmap, kSkeleton };
+/// A skeleton node is a submap whose keyframes have left the graph. A metre has a scale only
+/// (metric.hpp).
+enum class NodeKind : uint8_t { kKeyframe, kSubmap, kSkeleton, kMetre };
 
 /// Keyframe (T_world_kf) or submap (T_world_submap).
 struct Node {
@@ -21,12 +22,22 @@ struct Node {
   bool alive = false;
 };
 
-enum class FactorKind : uint8_t { kTwoView, kBridge, kTie, kScaleAnchor, kScale, kChain, kRigid };
+enum class FactorKind : uint8_t {
+  kTwoView,
+  kBridge,
+  kTie,
+  kScaleAnchor,
+  kScale,
+  kChain,
+  kRigid,
+  kMetric
+};
 
 /// Scale factors have 1 row and read log_ratio; pose factors have 7 (rigid ones 6) and read P (and
 /// Q, Lambda).
 constexpr bool is_pose_factor(FactorKind kind) {
-  return kind != FactorKind::kScaleAnchor && kind != FactorKind::kScale;
+  return kind != FactorKind::kScaleAnchor && kind != FactorKind::kScale &&
+         kind != FactorKind::kMetric;
 }
 
 /// The prediction that an edge comes from, or those that were condensed into it.

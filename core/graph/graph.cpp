@@ -195,6 +195,11 @@ Status Graph::add_scale(int32_t m, int32_t n, double log_c, const EdgeWeight& we
   return add_scale_edge(FactorKind::kScale, m, n, log_c, weight, id);
 }
 
+Status Graph::add_metric(int32_t metre, int32_t submap, double log_metres, const EdgeWeight& weight,
+                         int32_t* id) {
+  return add_scale_edge(FactorKind::kMetric, metre, submap, log_metres, weight, id);
+}
+
 Status Graph::add_informed_edge(FactorKind kind, int32_t a, int32_t b, const ChainLink& link,
                                 const EdgeWeight& weight, int32_t* id) {
   if (!valid_link(link)) return Status::kInvalidArgument;

@@ -74,6 +74,9 @@ class Graph {
   Status add_scale_anchor(int32_t submap, int32_t keyframe, double log_rho_mi,
                           const EdgeWeight& weight, int32_t* id);
   Status add_scale(int32_t m, int32_t n, double log_c, const EdgeWeight& weight, int32_t* id);
+  /// @param metre node of kind kMetre, which has no other edges
+  Status add_metric(int32_t metre, int32_t submap, double log_metres, const EdgeWeight& weight,
+                    int32_t* id);
   /// @return kInvalidArgument also for an information that is not positive definite
   Status add_chain(int32_t a, int32_t b, const ChainLink& link, const EdgeWeight& weight,
                    int32_t* id);
@@ -88,7 +91,7 @@ class Graph {
   Status set_measurement(int32_t id, const Sim3& Z);
   /// Put new measurements into a tie or rigid bridge edge.
   Status set_tie_measurement(int32_t id, const Sim3& P, const Sim3& T_submap_n_kf);
-  /// Put a new log ratio into a scale_anchor or scale edge.
+  /// Put a new log ratio into a scale_anchor, scale or metric edge.
   Status set_log_ratio(int32_t id, double log_ratio);
   Status set_multiplier(int32_t id, double multiplier);
   /// A suspended edge keeps its id and place but contributes nothing.

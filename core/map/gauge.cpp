@@ -42,7 +42,7 @@ Status Gauge::apply(Graph* graph) {
     parent_[a_first ? b : a] = a_first ? a : b;
   }
   for (int32_t node = 0; node < graph->node_end(); ++node) {
-    if (!graph->has_node(node)) continue;
+    if (!graph->has_node(node) || graph->node(node).kind == NodeKind::kMetre) continue;
     const bool hold = root_of(node) == node;
     if (graph->node(node).fixed == hold) continue;
     const Status status = graph->set_fixed(node, hold);

@@ -10,7 +10,7 @@ namespace unisim {
 
 /// Holds one node of every part of a graph that pose factors connect: its first skeleton
 /// node, else its first keyframe, else its first submap. Scale factors alone do not connect: they
-/// leave six dimensions open.
+/// leave six dimensions open. A metre is measured against the map and never held.
 class Gauge {
  public:
   Gauge() = default;

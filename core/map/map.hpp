@@ -5,6 +5,7 @@
 #include "core/base/invariants.hpp"
 #include "core/graph/graph.hpp"
 #include "core/map/keyframe_ring.hpp"
+#include "core/map/metric_scale.hpp"
 #include "core/map/submap_table.hpp"
 #include "core/session_config.hpp"
 
@@ -17,7 +18,8 @@ struct Map {
       : config(map_config),
         keyframes(arena.begin_part("keyframes"), capacity.keyframes, config.first_keyframe_id),
         submaps(arena.begin_part("submaps"), capacity.submaps, config.first_submap_id),
-        graph(arena.begin_part("graph"), capacity.graph) {}
+        graph(arena.begin_part("graph"), capacity.graph),
+        metric(arena.begin_part("metric"), capacity.graph.nodes) {}
   Map(const Map&) = delete;
   Map& operator=(const Map&) = delete;
 
@@ -41,6 +43,7 @@ struct Map {
   KeyframeRing keyframes;
   SubmapTable submaps;
   Graph graph;
+  MetricScale metric;
 };
 
 }  // namespace unisim

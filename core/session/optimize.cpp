@@ -14,6 +14,8 @@ constexpr double kLeastMove = 1e-4;
 constexpr double kStillMove = 1e-6;
 // Edges that change less keep their part of H: share of their length, rad, log-scale.
 constexpr double kRelinearize = 1e-2;
+// From so many degrees of freedom on, residuals say how sure the measurements are.
+constexpr int32_t kTellingFreedom = 100;
 
 bool moved(const Sim3& before, const Sim3& after) {
   return sim3_log(between(before, after)).cwiseAbs().maxCoeff() > kLeastMove;
@@ -24,17 +26,30 @@ void note_changed(int32_t first, int32_t last, OptimizeReport* report) {
   report->last_changed = std::max(report->last_changed, last);
 }
 
-/// Rows of all active edges minus free unknowns.
+/// Rows of all active edges minus free unknowns; how long a metre is, is another matter.
 int32_t degrees_of_freedom(const Graph& graph) {
   int32_t rows = 0;
   for (int32_t id = 0; id < graph.edge_end(); ++id) {
     const Edge& edge = graph.edge(id);
-    if (edge.active()) rows += is_pose_factor(edge.kind) ? kTangentDim : 1;
+    if (edge.active() && edge.kind != FactorKind::kMetric)
+      rows += is_pose_factor(edge.kind) ? kTangentDim : 1;
   }
   for (int32_t node = 0; node < graph.node_end(); ++node) {
-    if (graph.has_node(node) && !graph.node(node).fixed) rows -= kTangentDim;
+    const bool is_pose = graph.has_node(node) && graph.node(node).kind != NodeKind::kMetre;
+    if (is_pose && !graph.node(node).fixed) rows -= kTangentDim;
   }
   return rows;
+}
+
+/// Cost of metric edges.
+double metric_cost(const Graph& graph) {
+  double cost = 0.0;
+  for (int32_t id = 0; id < graph.edge_end(); ++id) {
+    const Edge& edge = graph.edge(id);
+    if (!edge.active() || edge.kind != FactorKind::kMetric) continue;
+    cost += robust_cost(edge.kernel, edge_norm_squared(graph, edge)).cost;
+  }
+  return cost;
 }
 
 }  // namespace
@@ -43,6 +58,7 @@ int32_t degrees_of_freedom(const Graph& graph) {
 // next of those, or for a call without anything new.
 Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
   *report = OptimizeReport();
+  if (!holds(show_metres())) return Status::kInternal;
   for (int32_t node = 0; node < map_.graph.node_end(); ++node)
     before_[node] = map_.graph.pose(node);
   LmOptions options;
@@ -57,7 +73,7 @@ Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
   } while (status == Status::kCapacity && skeleton_.untangle());
   refuse_late_windows();
   report->keyframes = live_nodes();
-  report->submaps = map_.graph.node_count() - live_nodes();
+  report->submaps = map_.graph.node_count() - live_nodes() - map_.metric.metres();
   describe_bad_node(report);
   if (status == Status::kNotReady || status == Status::kCapacity) return status;
   ++counts_.optimizations;
@@ -71,8 +87,12 @@ Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
   skeleton_.watch_loops(counts_.optimizations);
   if (!holds(gauge_.apply(&map_.graph))) return Status::kInternal;
   const int32_t freedom = degrees_of_freedom(map_.graph);
-  variance_factor_ = freedom > 0 ? 2.0 * report->lm.final_cost / freedom : 1.0;
+  const double cost = report->lm.final_cost - metric_cost(map_.graph);
+  variance_factor_ = freedom > 0 ? 2.0 * cost / freedom : 1.0;
+  if (freedom >= kTellingFreedom) map_.metric.set_unit_variance(variance_factor_);
   solved_revision_ = map_.graph.revision();
+  distances_.note_solved();
+  measure_new_metres();
   return status;
 }
 

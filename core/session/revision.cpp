@@ -71,6 +71,7 @@ void Session::update_views(const SubmapUpdate& update, Submap* submap) {
   }
   // The unit may be another one: the submap's scale follows, so that its origin keyframe stays.
   const double unit = math::exp(-update.log_depth_ratio[submap->origin]);
+  map_.metric.rescale(submap->place.node, -update.log_depth_ratio[submap->origin]);
   holds(map_.graph.set_pose(submap->place.node,
                             map_.graph.pose(submap->place.node) * Sim3::scaling(unit)));
 }

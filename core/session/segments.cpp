@@ -73,6 +73,8 @@ void Session::join_segment(const Submap& submap, int32_t segment, int32_t into) 
   const SubmapView& view = joining_view(submap, segment);
   const Sim3 correction = join_correction(view, map_.graph.pose(submap.place.node));
   move_retired(segment, correction);
+  holds(map_.metric.release(segment, &map_.graph));
+  distances_.rescale_world(segment, into, math::log(correction.s));
   for (int32_t k = 0; k < map_.submaps.size(); ++k) {
     Submap& other = map_.submaps.at(k);
     if (other.segment != segment) continue;

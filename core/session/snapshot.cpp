@@ -65,7 +65,12 @@ void Session::visit(Archive* archive) {
   archive->section("skeleton", [&] { skeleton_.visit(archive); });
   archive->section("edges", [&] {
     skeleton_.visit_edges(archive);
+    map_.metric.visit(archive, graph);
     graph->visit_free_places(archive);
+  });
+  archive->section("metric", [&] {
+    distances_.visit(archive);
+    sources_.visit(archive);
   });
   archive->section("requests", [&] { requests_.visit(archive); });
   archive->section("depth", [&] {

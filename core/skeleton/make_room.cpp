@@ -115,6 +115,7 @@ void Skeleton::forget_part() {
   for (int32_t k = map_.submaps.size() - 1; k >= 0; --k) {
     if (map_.submaps.at(k).place.node == node) map_.submaps.erase(map_.submaps.at(k).id);
   }
+  map_.metric.forget(node);
   map_.holds(map_.graph.remove_node(node));
   attach_loop_views();
   erase(0);

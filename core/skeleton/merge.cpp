@@ -2,6 +2,7 @@
 // A skeleton at its capacity: neighbours in time become one rigid node.
 #include <algorithm>
 
+#include "core/base/math.hpp"
 #include "core/base/positive_definite.hpp"
 #include "core/graph/chain_transfer.hpp"
 #include "core/map/view_edges.hpp"
@@ -27,6 +28,12 @@ Mat7 information_between(const Graph& graph, int32_t a, int32_t b) {
     if (is_link && edge.a == a && edge.b == b) Lambda += graph.link(edge).Lambda;
   }
   return Lambda;
+}
+
+/// Of the link of time between a and its successor b; nothing is known of it: none.
+Mat7 covariance_between(const Graph& graph, int32_t a, int32_t b) {
+  const Mat7 Lambda = information_between(graph, a, b);
+  return Lambda.trace() > 0.0 ? inverse_of_positive(Lambda) : Mat7(Mat7::Zero());
 }
 
 }  // namespace
@@ -61,6 +68,7 @@ void Skeleton::merge(int32_t k) {
   const int32_t a = map_.submaps[nodes_[k].submap].place.node;
   const int32_t b = map_.submaps[nodes_[k + 1].submap].place.node;
   const Sim3 T_a_b = between(map_.graph.pose(a), map_.graph.pose(b));
+  merge_metric(a, b, T_a_b);
   move_chains(a, b, T_a_b);
   detach_loop_views(b);
   hang_submaps(a, b, T_a_b);
@@ -97,12 +105,17 @@ void Skeleton::hang_submaps(int32_t a, int32_t b, const Sim3& T_a_b) {
   }
 }
 
+/// What is known of the unit of b is known of that of a, less surely.
+void Skeleton::merge_metric(int32_t a, int32_t b, const Sim3& T_a_b) {
+  if (!map_.metric.evidence(b).known()) return map_.metric.forget(b);
+  const double variance = covariance_between(map_.graph, a, b)(6, 6);
+  map_.metric.merge(b, a, math::log(T_a_b.s), variance * map_.metric.unit_variance());
+}
+
 /// Chain edges of b go on from a, less sure by what the link between the two was unsure. Those
 /// between a and b go with b.
 void Skeleton::move_chains(int32_t a, int32_t b, const Sim3& T_a_b) {
-  const Mat7 Lambda = information_between(map_.graph, a, b);
-  const bool known = Lambda.trace() > 0.0;
-  const Mat7 covariance = known ? inverse_of_positive(Lambda) : Mat7(Mat7::Zero());
+  const Mat7 covariance = covariance_between(map_.graph, a, b);
   for (int32_t id = 0; id < map_.graph.edge_end(); ++id) {
     if (!map_.graph.has_edge(id)) continue;
     const Edge edge = map_.graph.edge(id);

@@ -128,6 +128,7 @@ class Skeleton {
   void merge(int32_t k);
   void erase(int32_t k);
   void hang_submaps(int32_t a, int32_t b, const Sim3& T_a_b);
+  void merge_metric(int32_t a, int32_t b, const Sim3& T_a_b);
   void move_chains(int32_t a, int32_t b, const Sim3& T_a_b);
   void detach_loop_views(int32_t node);
   void attach_loop_views();

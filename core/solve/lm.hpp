@@ -78,6 +78,7 @@ class LevenbergMarquardt {
   /// The next graph is another one: nothing of the last order and factor is kept.
   void forget() {
     structure_revision_ = 0;
+    relinearize_ = 0.0;
     undamped_revision_ = 0;
   }
 

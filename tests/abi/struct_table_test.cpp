@@ -206,6 +206,34 @@ AT(unisim_loop_info, state, 8);
 AT(unisim_loop_info, condensed, 12);
 AT(unisim_loop_info, residual, 16);
 
+SIZE(unisim_distance, 40);
+AT(unisim_distance, struct_size, 0);
+AT(unisim_distance, i, 4);
+AT(unisim_distance, j, 8);
+AT(unisim_distance, source, 12);
+AT(unisim_distance, metres, 16);
+AT(unisim_distance, sigma, 24);
+AT(unisim_distance, common_sigma, 32);
+
+SIZE(unisim_submap_unit, 40);
+AT(unisim_submap_unit, struct_size, 0);
+AT(unisim_submap_unit, submap_id, 4);
+AT(unisim_submap_unit, source, 8);
+AT(unisim_submap_unit, reserved, 12);
+AT(unisim_submap_unit, metres, 16);
+AT(unisim_submap_unit, sigma, 24);
+AT(unisim_submap_unit, common_sigma, 32);
+
+SIZE(unisim_scale, 40);
+AT(unisim_scale, struct_size, 0);
+AT(unisim_scale, segment, 4);
+AT(unisim_scale, metres_per_unit, 8);
+AT(unisim_scale, sigma, 16);
+AT(unisim_scale, taken, 24);
+AT(unisim_scale, refused, 28);
+AT(unisim_scale, waiting, 32);
+AT(unisim_scale, lost, 36);
+
 SIZE(unisim_places_config, 24);
 AT(unisim_places_config, struct_size, 0);
 AT(unisim_places_config, capacity, 4);
@@ -234,6 +262,10 @@ TEST_CASE("numbers of statuses, bits and states never move") {
   CHECK(UNISIM_ERR_INTERNAL == 6);
   CHECK(UNISIM_ERR_ABI_MISMATCH == 7);
   CHECK(UNISIM_ERR_RETIRED == 8);
+  CHECK(UNISIM_METRIC_DISTANCE == 0);
+  CHECK(UNISIM_METRIC_ODOMETRY == 1);
+  CHECK(UNISIM_METRIC_HEIGHT == 2);
+  CHECK(UNISIM_METRIC_MODEL == 3);
   CHECK(UNISIM_RETIRED_KEYFRAME == 0);
   CHECK(UNISIM_RETIRED_SUBMAP == 1);
   CHECK(UNISIM_LOOP_ACTIVE == 0);

@@ -40,7 +40,9 @@ TEST_CASE("a long random session makes no heap call") {
   REQUIRE(status == UNISIM_OK);
   CHECK(in_create == 0);
 
-  RandomCaller caller(session, config, 17U, Habits{});
+  Habits habits;
+  habits.metres = 0.2;
+  RandomCaller caller(session, config, 17U, habits);
   const int64_t before = heap_calls();
   while (caller.step()) {
   }

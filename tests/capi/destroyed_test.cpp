@@ -41,6 +41,14 @@ std::vector<std::pair<const char*, unisim_status>> answers(unisim_session* sessi
   auto loop = sized<unisim_loop_info>();
   auto submap_info = sized<unisim_submap_info>();
   auto info = sized<unisim_session_info>();
+  auto distance = sized<unisim_distance>();
+  distance.j = 1;
+  distance.metres = 1.0;
+  distance.sigma = 0.01;
+  auto unit = sized<unisim_submap_unit>();
+  unit.metres = 1.0;
+  unit.sigma = 0.1;
+  auto scale = sized<unisim_scale>();
   double covariance[49];
   size_t count = 0;
   int32_t id = -1;
@@ -56,6 +64,9 @@ std::vector<std::pair<const char*, unisim_status>> answers(unisim_session* sessi
           {"get_pose", unisim_get_pose(session, 0, &pose)},
           {"get_trajectory", unisim_get_trajectory(session, &pose, 1, &count)},
           {"get_covariance", unisim_get_covariance(session, 1, covariance)},
+          {"add_distance", unisim_add_distance(session, &distance)},
+          {"add_submap_unit", unisim_add_submap_unit(session, &unit)},
+          {"get_scale", unisim_get_scale(session, 0, &scale)},
           {"next_retired", unisim_next_retired(session, &retired)},
           {"get_loop", unisim_get_loop(session, 0, &loop)},
           {"remove_loop", unisim_remove_loop(session, 0)},

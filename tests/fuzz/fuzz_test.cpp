@@ -11,7 +11,7 @@ using namespace unisim::test;
 
 namespace {
 
-void run(uint32_t seed, double garbage) {
+void run(uint32_t seed, double garbage, double metres = 0.0) {
   const unisim_config config = random_config(seed);
   size_t size = 0;
   REQUIRE(unisim_arena_size(&config, &size) == UNISIM_OK);
@@ -20,6 +20,7 @@ void run(uint32_t seed, double garbage) {
   REQUIRE(unisim_session_create(&session, &config, arena.get(), size) == UNISIM_OK);
   Habits habits;
   habits.garbage = garbage;
+  habits.metres = metres;
   habits.keyframes = 400;  // beyond what a sliding window keeps
   RandomCaller caller(session, config, seed, habits);
   while (caller.step()) {
@@ -44,4 +45,8 @@ TEST_CASE("random calls with good numbers") {
 
 TEST_CASE("random calls with garbage in them") {
   for (uint32_t seed = 1; seed < 1 + fuzz_seeds(); ++seed) run(seed, 0.05);
+}
+
+TEST_CASE("random calls with distances that say nothing sensible") {
+  for (uint32_t seed = 1; seed < 1 + fuzz_seeds(); ++seed) run(seed, 0.05, 0.5);
 }

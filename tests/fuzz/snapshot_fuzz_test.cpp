@@ -42,6 +42,7 @@ int32_t run(uint32_t seed, double garbage) {
   Habits habits;
   habits.garbage = garbage;
   habits.keyframes = 300;
+  habits.metres = seed % 2 == 0 ? 0.3 : 0.0;
   RandomCaller one(first.session, config, seed, habits);
   RandomCaller other(second.session, config, seed, habits);
   int32_t steps = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every factor's Jacobians against central differences, small and large residuals.
 #include "core/graph/bridge.hpp"
+#include "core/graph/metric.hpp"
 #include "core/graph/rigid.hpp"
 #include "core/graph/scale.hpp"
 #include "core/graph/scale_anchor.hpp"
@@ -85,8 +86,16 @@ TEST_CASE("Jacobians of the scale factors are -1 and +1 on the log-scale") {
     const auto scale_of_B = [&](const Sim3& at) -> Eigen::VectorXd {
       return Eigen::VectorXd::Constant(1, scale_residual(A, at, 0.3));
     };
+    const auto metric_of_A = [&](const Sim3& at) -> Eigen::VectorXd {
+      return Eigen::VectorXd::Constant(1, metric_residual(at, B, 0.3));
+    };
+    const auto metric_of_B = [&](const Sim3& at) -> Eigen::VectorXd {
+      return Eigen::VectorXd::Constant(1, metric_residual(A, at, 0.3));
+    };
     Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(1, 7);
     expected(0, 6) = -1.0;
+    CHECK(difference(numeric_jacobian(A, metric_of_A), expected) < 1e-11);
+    CHECK(difference(numeric_jacobian(B, metric_of_B), -expected) < 1e-11);
     CHECK(difference(numeric_jacobian(A, anchor_of_A), expected) < 1e-11);
     CHECK(difference(numeric_jacobian(B, scale_of_B), -expected) < 1e-11);
   }

@@ -64,6 +64,7 @@ bool RandomCaller::add_keyframe() {
   const unisim_status status = unisim_add_keyframe(session_, &keyframe, &id);
   note(status);
   if (status == UNISIM_OK) ++keyframes_;
+  if (keyframes_ > 1 && habits_.metres > 0.0 && chance(habits_.metres)) add_metres();
   return status != UNISIM_ERR_CAPACITY && status != UNISIM_ERR_INTERNAL;
 }
 
@@ -142,6 +143,30 @@ void RandomCaller::update() {
   u.log_depth_ratio = ratios_.data();
   u.center_sigma = 0.006 * uniform_(random_);
   note(unisim_update_submap(session_, &u));
+}
+
+void RandomCaller::add_metres() {
+  unisim_distance d = {};
+  d.struct_size = sizeof d;
+  d.j = std::max(0, keyframes_ - 1 - below(8));
+  d.i = std::max(0, d.j - 1 - below(chance(0.1) ? 100 : 8));
+  d.source = below(4);
+  d.metres = 0.1 + 10.0 * uniform_(random_);
+  d.sigma = 0.02 * d.metres;
+  d.common_sigma = chance(0.5) ? 0.01 : 0.0;
+  if (chance(habits_.garbage)) spoil(&d.i, sizeof d - sizeof d.struct_size);
+  note(unisim_add_distance(session_, &d));
+  unisim_submap_unit u = {};
+  u.struct_size = sizeof u;
+  u.submap_id = below(submaps_ + 2) - 1;
+  u.source = UNISIM_METRIC_MODEL;
+  u.metres = 0.5 + uniform_(random_);
+  u.sigma = 0.1;
+  if (chance(habits_.garbage)) spoil(&u.submap_id, sizeof u - sizeof u.struct_size);
+  if (chance(0.1)) note(unisim_add_submap_unit(session_, &u));
+  unisim_scale scale = {};
+  scale.struct_size = sizeof scale;
+  note(unisim_get_scale(session_, below(3) - 1, &scale));
 }
 
 void RandomCaller::read() {

@@ -15,6 +15,7 @@ struct Habits {
   double garbage = 0.0;     ///< share of calls with a random field broken
   double reject = 0.05;     ///< share of requests rejected
   double noise = 0.01;      ///< of poses
+  double metres = 0.0;      ///< share of keyframes with a distance or a submap's unit
   double reads = 1.0;       ///< share of the usual reading of poses and covariances
   double optimizes = 1.0;   ///< share of the usual optimisations
   int32_t keyframes = 600;  ///< after which it ends
@@ -46,6 +47,7 @@ class RandomCaller {
   void add_window(const unisim_request& request);
   void add_loop();
   void update();
+  void add_metres();
   void read();
   void optimize();
   void fill_depth();

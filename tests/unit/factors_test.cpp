@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The five factors: zero where the formula says so, and one hand-computed residual each.
 #include "core/graph/bridge.hpp"
+#include "core/graph/metric.hpp"
 #include "core/graph/rigid.hpp"
 #include "core/graph/scale.hpp"
 #include "core/graph/scale_anchor.hpp"
@@ -91,6 +92,15 @@ TEST_CASE("scale residuals are differences of logarithms") {
   const Sim3 b = Sim3::scaling(6.0);
   CHECK(scale_anchor_residual(a, b, 0.1) == Approx(std::log(3.0) - 0.1));
   CHECK(scale_residual(b, a, 0.0) == Approx(-std::log(3.0)));
+}
+
+TEST_CASE("a submap whose unit is known in metres has no residual against the metre") {
+  const World w;
+  // A metre is 4 of the world's units long, a unit of submap m half a unit: an eighth of a metre.
+  const Sim3 metre = Sim3::scaling(4.0);
+  CHECK(std::abs(metric_residual(metre, w.submap_m, std::log(0.125))) < 1e-15);
+  CHECK(metric_residual(metre, w.submap_m, std::log(0.25)) == Approx(-std::log(2.0)));
+  CHECK(log_metres_per_unit(2.0, {1, 0, 0}, {1, 4, 0}) == Approx(std::log(0.5)));
 }
 
 TEST_CASE("a rigid residual is the shift and half the rotation, of the quaternion with w >= 0") {

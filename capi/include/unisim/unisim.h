@@ -11,8 +11,8 @@
  *  - A similarity acts as  p' = s R p + t.  T_a_b takes points of frame b to frame a.
  *  - Camera frames have OpenCV axes (x right, y down, z forward). Poses are camera-to-world.
  *  - Tangent order is translation 3, rotation 3, log-scale 1; updates act on the right.
- *  - Quaternions are x y z w. Lengths have no unit: one camera alone does not see scale. Time is in
- *    nanoseconds of the host's choice of clock. Indices start at 0.
+ *  - Quaternions are x y z w. Lengths have no unit: one camera alone does not see scale (metric.h).
+ * Time is in nanoseconds of the host's choice of clock. Indices start at 0.
  *  - Every struct with `struct_size` is filled by its caller with sizeof the struct. A size below
  *    that of the first release is UNISIM_ERR_ABI_MISMATCH; a smaller one than today's takes
  *    defaults for the missing tail; a larger one (up to 65536 bytes) is accepted when the unknown
@@ -26,12 +26,13 @@
  *  - On any error the session is as it was before the call.
  *
  *  Include this file only: it brings types.h (statuses, plain values), config.h (configuration,
- * life cycle), results.h (what comes out) and snapshot.h (maps that outlive the run); data in,
- * requests and unisim_optimize() are below. */
+ *  life cycle), results.h (what comes out), metric.h (metres) and snapshot.h (maps that outlive the
+ *  run); data in, requests and unisim_optimize() are below. */
 #ifndef UNISIM_UNISIM_H
 #define UNISIM_UNISIM_H
 
 #include "unisim/config.h"
+#include "unisim/metric.h"
 #include "unisim/results.h"
 #include "unisim/snapshot.h"
 #include "unisim/types.h"

@@ -172,6 +172,9 @@ void NormalEquations::add_scale_edge(const Graph& graph, int32_t id, const Ends&
   ends.diagonal_a->at(kLogScale, kLogScale) += w;
   ends.diagonal_b->at(kLogScale, kLogScale) += w;
   ends.coupling->at(kLogScale, kLogScale) -= w;
+  if (edge.kind != FactorKind::kMetric) return;
+  // Nothing depends on the rest of a metre's pose: it stays.
+  for (int d = 0; d < kLogScale; ++d) ends.diagonal_a->at(d, d) += w;
 }
 
 }  // namespace unisim
