@@ -70,6 +70,10 @@ typedef struct unisim_window_prediction {
   double center_sigma;            /**< see unisim_submap; 0 if not known */
   int64_t token;                  /**< names this window in later revisions */
   const char* remark;             /**< one line worth telling, NULL for none */
+  double metres_per_unit; /**< metres in a unit of poses and depth; 0: not known, one camera does
+                               not see scale. The two below go with it: see unisim_submap_unit */
+  double metres_sigma;    /**< relative standard deviation of this window */
+  double metres_common_sigma; /**< of all windows together */
 } unisim_window_prediction;
 
 /** A window the predictor has measured again, better. */

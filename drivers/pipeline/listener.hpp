@@ -21,8 +21,10 @@ struct Progress {
   int32_t keyframes = 0;       ///< of this run
   int64_t frames_located = 0;  ///< found in the map, with Options::localise
   int32_t submaps = 0;
-  int32_t state = 0;      ///< UNISIM_STATE_*
-  int64_t newest_ns = 0;  ///< time stamp of the newest frame
+  int32_t state = 0;             ///< UNISIM_STATE_*
+  int64_t newest_ns = 0;         ///< time stamp of the newest frame
+  double metres_per_unit = 0.0;  ///< of the newest keyframe's segment; 0: relative
+  double scale_sigma = 0.0;      ///< its relative standard deviation
 };
 
 /// A pose as it was first given out, before any later correction.

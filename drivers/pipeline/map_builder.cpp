@@ -7,7 +7,10 @@
 namespace unisim::pipeline {
 
 MapBuilder::MapBuilder(const Parts& parts, size_t max_submaps)
-    : parts_(parts), tokens_(max_submaps, {-1, -1}), wide_windows_(parts.session) {
+    : parts_(parts),
+      tokens_(max_submaps, {-1, -1}),
+      wide_windows_(parts.session),
+      distances_(parts.session, parts.odometry, parts.window_size) {
   make_loops();
   if (parts.predictor->concurrent_windows == 0) return;
   lane_ = std::make_unique<BackLane>(parts.predictor, parts.window_size, loops_.get());
@@ -31,6 +34,7 @@ Step MapBuilder::add_keyframe(const unisim_frame& frame, int32_t* id) {
   const unisim_status status = parts_.session->add_keyframe(frame.timestamp_ns, id);
   if (status != UNISIM_OK) return session_failed("unisim_add_keyframe", status);
   newest_ = *id;
+  distances_.note_keyframe(*id);
   {
     const ScopedLatency timer(parts_.times->keyframe);
     const int answer = parts_.predictor->keyframe(parts_.predictor, &frame, *id);
@@ -60,6 +64,7 @@ Step MapBuilder::serve_pairs() {
   while (step == Step::kOk && !pending && next_request(UNISIM_REQUEST_PAIR, &request)) {
     step = serve_pair(request, &pending);
   }
+  if (step == Step::kOk) distances_.settle(last_settled_);
   return step;
 }
 
@@ -158,9 +163,25 @@ Step MapBuilder::take_window(const unisim_request& request, const unisim_window_
   if (status != UNISIM_OK) return session_failed("unisim_add_submap", status);
   if (submap_id < 0) return Step::kOk;
   tokens_[next_token_++ % tokens_.size()] = {window.token, submap_id};
+  take_unit(submap_id, window);
   for (Listener* listener : *parts_.listeners) listener->on_window(submap_id, window);
   tell_retired();
   return Step::kOk;
+}
+
+/// A predictor that knows metres says how long its unit is.
+void MapBuilder::take_unit(int32_t submap_id, const unisim_window_prediction& window) {
+  if (!(window.metres_per_unit > 0.0)) return;
+  unisim_submap_unit unit{};
+  unit.submap_id = submap_id;
+  unit.source = UNISIM_METRIC_MODEL;
+  unit.metres = window.metres_per_unit;
+  unit.sigma = window.metres_sigma;
+  unit.common_sigma = window.metres_common_sigma;
+  const unisim_status status = parts_.session->add_submap_unit(unit);
+  if (status == UNISIM_OK) return;
+  parts_.messages->say(MessageKind::kInvalid, "metres of submap " + std::to_string(submap_id) +
+                                                  ": " + unisim_status_string(status));
 }
 
 Step MapBuilder::serve_revisions() {
@@ -269,7 +290,18 @@ Step MapBuilder::optimize(int max_calls) {
     if (status != UNISIM_OK) return session_failed("unisim_optimize", status);
     for (Listener* listener : *parts_.listeners) listener->on_optimized(report);
   }
+  note_scale();
   return Step::kOk;
+}
+
+void MapBuilder::note_scale() {
+  unisim_session_info info;
+  unisim_pose pose;
+  const bool posed = parts_.session->get_info(&info) == UNISIM_OK && info.last_posed >= 0 &&
+                     parts_.session->get_pose(info.last_posed, &pose) == UNISIM_OK;
+  unisim_scale scale;
+  const bool known = posed && parts_.session->get_scale(pose.segment, &scale) == UNISIM_OK;
+  scale_ = known ? scale : unisim_scale{};
 }
 
 }  // namespace unisim::pipeline

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drivers/pipeline/back_lane.hpp"
+#include "drivers/pipeline/distance_feeder.hpp"
 #include "drivers/pipeline/latency_histogram.hpp"
 #include "drivers/pipeline/listener.hpp"
 #include "drivers/pipeline/loop_closer.hpp"
@@ -51,6 +52,7 @@ class MapBuilder {
     int32_t window_step;  ///< keyframes from one window to the next
     bool realtime;        ///< answers of the lane are taken when they are there
     LoopConfig loops;     ///< for a predictor with places
+    OdometryOptions odometry;
   };
 
   /// Windows that may wait for the lane in a realtime run; for a newer one the oldest is dropped.
@@ -87,6 +89,9 @@ class MapBuilder {
   /// Last keyframe whose pair was added or rejected; 0 before the first.
   int32_t last_settled() const { return last_settled_; }
 
+  /// Of the newest keyframe's segment after the last optimisation; metres_per_unit 0: not known.
+  const unisim_scale& scale() const { return scale_; }
+
   const LaneReport& lane_report() const { return report_; }
 
   /// What the predictor says of the run, and of loops what is known here.
@@ -109,6 +114,8 @@ class MapBuilder {
   Step take_answer(const unisim_request& request, int status,
                    const unisim_window_prediction& window, const std::string& reason,
                    bool* pending);
+  void note_scale();
+  void take_unit(int32_t submap_id, const unisim_window_prediction& window);
   Step take_window(const unisim_request& request, const unisim_window_prediction& window,
                    bool* pending);
   bool wants_wide_window() const;
@@ -136,6 +143,8 @@ class MapBuilder {
   std::vector<TokenOfSubmap> tokens_;  // a ring of the newest
   size_t next_token_ = 0;
   WideWindows wide_windows_;
+  DistanceFeeder distances_;
+  unisim_scale scale_{};
   std::unique_ptr<LoopCloser> loops_;  // NULL: none are looked for
   int32_t last_settled_ = 0;
   int32_t newest_ = -1;  // keyframe

@@ -102,9 +102,9 @@ Preparation Pipeline::Impl::prepare() {
   const int32_t step = config_.window_size - config_.window_overlap;
   const int32_t windows = config_.max_keyframes / step + 2;
   const MapBuilder::Parts parts = {
-      &session_,     predictor_,          &result_.times, &messages_,
-      &listeners_,   config_.window_size, step,           options_.realtime || options_.live,
-      options_.loops};
+      &session_,      predictor_,          &result_.times, &messages_,
+      &listeners_,    config_.window_size, step,           options_.realtime || options_.live,
+      options_.loops, options_.odometry};
   builder_ = std::make_unique<MapBuilder>(parts, static_cast<size_t>(windows));
   return preparation;
 }
@@ -343,6 +343,8 @@ void Pipeline::Impl::tell_progress() {
     // Nothing changes in the session while frames are only looked for in its map.
     if (!localiser_) result_.progress.state = info.state;
     result_.progress.submaps = info.submaps;
+    result_.progress.metres_per_unit = builder_->scale().metres_per_unit;
+    result_.progress.scale_sigma = builder_->scale().sigma;
   }
   for (Listener* listener : listeners_) listener->on_progress(result_.progress);
 }

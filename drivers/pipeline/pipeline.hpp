@@ -24,6 +24,7 @@ namespace unisim::pipeline {
 struct Options {
   KeyframeConfig keyframes;
   LoopConfig loops;
+  OdometryOptions odometry;
   int32_t queue_frames = 8;    ///< frames decoded ahead
   bool every_frame = false;    ///< also pose the frames between keyframes
   bool realtime = false;       ///< keep to the recorded times, drop late frames

@@ -95,6 +95,21 @@ unisim_status SessionClient::remove_loop(int32_t submap_id) {
   return timed(&StageTimes::graph, [&] { return unisim_remove_loop(session_, submap_id); });
 }
 
+unisim_status SessionClient::add_distance(unisim_distance distance) {
+  distance.struct_size = sizeof distance;
+  return timed(&StageTimes::graph, [&] { return unisim_add_distance(session_, &distance); });
+}
+
+unisim_status SessionClient::add_submap_unit(unisim_submap_unit unit) {
+  unit.struct_size = sizeof unit;
+  return timed(&StageTimes::graph, [&] { return unisim_add_submap_unit(session_, &unit); });
+}
+
+unisim_status SessionClient::get_scale(int32_t segment, unisim_scale* scale) {
+  *scale = sized<unisim_scale>();
+  return timed(&StageTimes::read, [&] { return unisim_get_scale(session_, segment, scale); });
+}
+
 unisim_status SessionClient::update_submap(int32_t submap_id,
                                            const unisim_window_revision& revision) {
   auto update = sized<unisim_submap_update>();

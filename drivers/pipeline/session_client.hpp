@@ -41,6 +41,10 @@ class SessionClient {
   unisim_status add_submap(const unisim_window_prediction& window, int32_t* submap_id);
   unisim_status add_loop(const unisim_window_prediction& window, int32_t* submap_id);
   unisim_status remove_loop(int32_t submap_id);
+  /// @param distance struct_size is set here
+  unisim_status add_distance(unisim_distance distance);
+  unisim_status add_submap_unit(unisim_submap_unit unit);
+  unisim_status get_scale(int32_t segment, unisim_scale* scale);
   unisim_status update_submap(int32_t submap_id, const unisim_window_revision& revision);
   unisim_status reject(const unisim_request& request);
   unisim_status close_window();

@@ -181,8 +181,17 @@ Decoded decode_window(std::size_t size, DecodedArrays* arrays, unisim_window_pre
   if (!finite(numbers, 2) || !finite(poses, count)) {
     return fail(Decoded::kNotFinite, "pose, focal length or sigma is not a number", problem);
   }
-  *out = {window->count,        ids,           poses,  arrays->depth.data(), window->focal_px,
-          window->center_sigma, window->token, nullptr};
+  *out = {window->count,
+          ids,
+          poses,
+          arrays->depth.data(),
+          window->focal_px,
+          window->center_sigma,
+          window->token,
+          nullptr,
+          0.0,
+          0.0,
+          0.0};
   return Decoded::kOk;
 }
 

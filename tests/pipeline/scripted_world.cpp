@@ -194,6 +194,11 @@ int ScriptedPredictor::multi_view(const int32_t* ids, int32_t count,
   }
   give_window(&window_, out);
   out->token = ++next_token_;
+  if (metres > 0.0) {
+    out->metres_per_unit = metres / window_unit(ids[0]);
+    out->metres_sigma = 0.1;
+    out->metres_common_sigma = 0.05;
+  }
   if (revises) open_revisions_.push_back({out->token, window_.ids});
   if (wrong_window_ids) window_.ids.back() += 1000;
   return UNISIM_PREDICTION_OK;

@@ -74,6 +74,7 @@ class ScriptedPredictor {
   int64_t fails_at = -1;          ///< frame at which observe() fails
   double window_bend = 0.0;       ///< path of a window over that of its square: drift
   double window_noise = 0.0;      ///< added to positions until the revision takes it away
+  double metres = 0.0;            ///< of a true length, said with each window; 0: not said
   bool revises = false;           ///< every window is revised once, at finish()
   int32_t wide_every = 0;         ///< keyframes from one exact wide window to the next; 0: none
   int32_t wide_given = 0;         ///< of them, the newest that was given

@@ -104,7 +104,10 @@ int multi_view(unisim_predictor* predictor, const int32_t* ids, int32_t count,
           501.25,
           1.0 / 1024.0,
           100 + last,
-          nullptr};
+          nullptr,
+          0.0,
+          0.0,
+          0.0};
   return UNISIM_PREDICTION_OK;
 }
 
@@ -132,9 +135,17 @@ int next_wide_window(unisim_predictor* predictor, int32_t, unisim_window_predict
   scripted.ids = {0, newest / 2, newest};
   scripted.poses = {pose_of(1.0), pose_of(5.0), pose_of(7.0 + newest)};
   fill_maps(scripted, {3.0, 4.0, static_cast<double>(newest)});
-  *out = {
-      3,      scripted.ids.data(), scripted.poses.data(), scripted.maps.data(), 501.5, 0.003, -1,
-      nullptr};
+  *out = {3,
+          scripted.ids.data(),
+          scripted.poses.data(),
+          scripted.maps.data(),
+          501.5,
+          0.003,
+          -1,
+          nullptr,
+          0.0,
+          0.0,
+          0.0};
   return UNISIM_PREDICTION_OK;
 }
 

@@ -201,6 +201,10 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
                          "--predictor recorded: what a camera sees has not been recorded; use "
                          "geometric or onnx");
   }
+  if (!options.run.odometry.empty()) {
+    throw tools::Failure(tools::kExitUsage,
+                         "--odometry is a file of a run that has been; use unisim-replay");
+  }
   if (!options.run.print_config && !options.list) run_options.check();
   return options;
 }

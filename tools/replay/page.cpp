@@ -79,7 +79,7 @@ void add_tracks(const Run& run, report::ReportData* page) {
     page->live.push_back(placed(live.timestamp_ns, live.T_world_cam, run.scores.live, 0));
   }
   page->truth = truth_points(run);
-  page->length_unit = run.scores.ate ? "m" : "";
+  page->length_unit = run.scores.ate || run.data.metric ? "m" : "";
   page->error = errors(run.scores.ate);
   page->live_error = errors(run.scores.live);
   page->scale = scales(run.scores.ate);
@@ -101,6 +101,12 @@ void add_figures(const Run& run, report::ReportData* page) {
   if (run.result.predictor.focal_px > 0.0) {
     page->figures.push_back({"focal length", text("%.1f px", run.result.predictor.focal_px),
                              given ? "given" : "estimated"});
+  }
+  const SegmentScale* known = run.data.main_scale();
+  if (known != nullptr) {
+    page->figures.push_back(
+        {"scale", text("metric, %.2g %%", 100.0 * known->sigma),
+         text("1 unit = %.4g m, %d distances", known->metres_per_unit, run.data.distances.taken)});
   }
   page->figures.push_back({"keyframes posed", text("%.1f %%", 100.0 * coverage(run.data)),
                            text("of %d, %d without", run.data.session.keyframes,

@@ -43,10 +43,17 @@ std::string seconds_text(int64_t time_ns) {
   return text;
 }
 
-std::string trajectory_header(const std::string& title, double scale) {
+std::string trajectory_header(const std::string& title, double scale, const SegmentScale* known) {
   std::string text = "# " + title + "\n";
   text += "# timestamp [s] tx ty tz qx qy qz qw; camera-to-world, OpenCV axes\n";
-  text += "# unit of length: arbitrary, one camera does not see scale\n";
+  if (known == nullptr) {
+    text += "# unit of length: arbitrary, one camera does not see scale\n";
+  } else {
+    append(&text, "# unit of length: metre, known to %.2g %% (1 standard deviation)\n",
+           100.0 * known->sigma);
+    append(&text, "# 1 unit of the map and of trajectory_live.tum = %.9g m\n",
+           known->metres_per_unit);
+  }
   if (scale > 0.0) append(&text, "# aligned with ground truth, 1 unit = %.9g m\n", scale);
   return text;
 }
@@ -60,21 +67,23 @@ std::string trajectory_line(const unisim_stamped_pose& pose) {
 }
 
 std::string trajectory_text(const std::string& title, const std::vector<unisim_stamped_pose>& poses,
-                            double scale) {
-  std::string text = trajectory_header(title, scale);
+                            double scale, const SegmentScale* known) {
+  std::string text = trajectory_header(title, scale, known);
   for (const unisim_stamped_pose& pose : poses) text += trajectory_line(pose);
   return text;
 }
 
-std::string keyframe_table(const std::vector<KeyframeRow>& rows) {
-  std::string text = "id,timestamp,scale,state,confidence,submap,covariance_trace,segment,frame\n";
-  for (const KeyframeRow& row : rows) {
+std::string keyframe_table(const RunData& data) {
+  std::string text =
+      "id,timestamp,scale,state,confidence,submap,covariance_trace,segment,frame,unit\n";
+  for (const KeyframeRow& row : data.keyframes) {
     append(&text, "%d,", row.pose.keyframe_id);
     text += seconds_text(row.pose.timestamp_ns);
     append(&text, ",%.10g,%s,%d,%d,", row.pose.T_world_kf.s, state_name(row.pose.state),
            row.pose.confidence, row.pose.submap_id);
     if (row.covariance_trace >= 0.0) append(&text, "%.6g", row.covariance_trace);
-    append(&text, ",%d,%lld\n", row.pose.segment, static_cast<long long>(row.frame_index));
+    append(&text, ",%d,%lld,%s\n", row.pose.segment, static_cast<long long>(row.frame_index),
+           data.metric ? "metric" : "relative");
   }
   return text;
 }

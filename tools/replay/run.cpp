@@ -10,6 +10,7 @@
 
 #include "drivers/common/has_places.hpp"
 #include "drivers/recorded/recorded.h"
+#include "drivers/sequence/text_file.hpp"
 #include "tools/common/failure.hpp"
 #include "tools/common/heap_counter.hpp"
 #include "tools/common/json_text.hpp"
@@ -168,18 +169,19 @@ int report_nothing(const pipeline::Result& result, const Options& options) {
 
 void write_files(const Run& run, OutputFolder* folder) {
   const double scale = run.scores.ate ? run.scores.ate->T_truth_estimate.s : 0.0;
+  const SegmentScale* known = run.data.main_scale();
   folder->write_text("trajectory.tum",
-                     trajectory_text("keyframes, final poses", run.data.trajectory, scale));
+                     trajectory_text("keyframes, final poses", run.data.trajectory, scale, known));
   if (run.options.settings.pipeline.every_frame) {
     folder->write_text("trajectory_frames.tum",
-                       trajectory_text("all frames, final poses", run.data.frames, scale));
+                       trajectory_text("all frames, final poses", run.data.frames, scale, known));
   }
   if (!run.options.load_map.empty()) {
     folder->write_text("trajectory_map.tum",
                        trajectory_text("keyframes of the map, of earlier runs first, final poses",
-                                       run.data.map, scale));
+                                       run.data.map, scale, known));
   }
-  folder->write_text("keyframes.csv", keyframe_table(run.data.keyframes));
+  folder->write_text("keyframes.csv", keyframe_table(run.data));
   folder->write_text("places.csv", place_table(run.result.predictor));
   folder->write_text("summary.json", tools::json_text(summary_json(run), 1) + "\n");
 }
@@ -269,6 +271,15 @@ unisim_config session_config(const Options& options, const Settings& settings,
   return config;
 }
 
+std::optional<pipeline::Odometry> read_odometry(const std::string& path) {
+  if (path.empty()) return std::nullopt;
+  try {
+    return pipeline::Odometry::read(path);
+  } catch (const sequence::InputError& error) {
+    throw tools::Failure(tools::kExitInput, std::string("--odometry: ") + error.what());
+  }
+}
+
 /// The end of a run that writes nothing.
 int conclude(const pipeline::Result& result, const Options& options,
              std::initializer_list<std::string> problems) {
@@ -304,6 +315,7 @@ int run(const Options& options, const Surroundings& around, const std::atomic<bo
   if (!options.out.empty() && !options.localise) results.emplace(options);
   MapSaver saver(options);
   LcmOutput lcm(options);
+  const std::optional<pipeline::Odometry> odometry = read_odometry(options.odometry);
   Input input = around.open();
   const std::string format = input.source->format;
   Settings settings = options.settings;
@@ -324,6 +336,7 @@ int run(const Options& options, const Surroundings& around, const std::atomic<bo
   if (lcm.listener() != nullptr) listeners.push_back(lcm.listener());
   pipeline::Options how = options.settings.pipeline;
   // The map has colours, also with no need of images.
+  if (odometry) how.odometry = {&*odometry, options.odometry_sigma};
   how.decode_images = results.has_value() || options.lcm_images;
   how.localise = options.localise;
   pipeline::Pipeline pipeline(how, input.source.get(), predictor.get(), config, listeners, &stop,

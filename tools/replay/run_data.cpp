@@ -60,7 +60,71 @@ void take_away(const unisim_session_info& before, unisim_session_info* info) {
   info->submaps_refused -= before.submaps_refused;
 }
 
+const SegmentScale* scale_of(const RunData& data, int32_t segment) {
+  for (const SegmentScale& scale : data.scales) {
+    if (scale.segment == segment) return &scale;
+  }
+  return nullptr;
+}
+
+/// What is known of the scale of each segment that has keyframes.
+void ask_scales(unisim_session* session, RunData* data) {
+  data->metric = !data->keyframes.empty();
+  std::vector<int32_t> asked;
+  for (const KeyframeRow& row : data->keyframes) {
+    const int32_t segment = row.pose.segment;
+    if (segment < 0 || std::find(asked.begin(), asked.end(), segment) != asked.end()) continue;
+    asked.push_back(segment);
+    unisim_scale scale{};
+    scale.struct_size = sizeof scale;
+    if (unisim_get_scale(session, segment, &scale) != UNISIM_OK) {
+      data->metric = false;
+      continue;
+    }
+    data->scales.push_back({segment, scale.metres_per_unit, scale.sigma});
+    data->distances = scale;
+  }
+}
+
+/// A submap is where its keyframes are.
+double metres_of_submap(const RunData& data, int32_t submap) {
+  for (const KeyframeRow& row : data.keyframes) {
+    const SegmentScale* scale = scale_of(data, row.pose.segment);
+    if (row.pose.submap_id == submap && scale != nullptr) return scale->metres_per_unit;
+  }
+  return data.main_scale()->metres_per_unit;
+}
+
+/// The map's unit becomes the metre: p' = s p for all points of the world.
+void to_metres(RunData* data) {
+  double metres = data->main_scale()->metres_per_unit;  // of a held pose: as the one before it
+  for (KeyframeRow& row : data->keyframes) {
+    const SegmentScale* scale = scale_of(*data, row.pose.segment);
+    if (scale != nullptr) metres = scale->metres_per_unit;
+    for (double& t : row.pose.T_world_kf.t) t *= metres;
+    row.pose.T_world_kf.s *= metres;
+  }
+  for (size_t id = 0; id < data->submap_scale.size(); ++id) {
+    data->submap_scale[id] *= metres_of_submap(*data, static_cast<int32_t>(id));
+  }
+}
+
 }  // namespace
+
+const SegmentScale* RunData::main_scale() const {
+  const SegmentScale* best = nullptr;
+  int64_t most = -1;
+  for (const SegmentScale& scale : scales) {
+    const auto count =
+        std::count_if(keyframes.begin(), keyframes.end(),
+                      [&](const KeyframeRow& row) { return row.pose.segment == scale.segment; });
+    if (count > most) {
+      most = count;
+      best = &scale;
+    }
+  }
+  return metric ? best : nullptr;
+}
 
 RunData collect(unisim_session* session, const RunRecord& record, bool every_frame,
                 const unisim_session_info& before) {
@@ -72,13 +136,26 @@ RunData collect(unisim_session* session, const RunRecord& record, bool every_fra
     unisim_pose pose;
     if (!record.poses().read(session, id, &pose)) continue;
     data.keyframes.push_back({pose, record.frame_of(id), covariance_trace(session, id)});
+  }
+  add_submaps(session, record, &data);
+  ask_scales(session, &data);
+  if (data.metric) to_metres(&data);
+  for (const KeyframeRow& row : data.keyframes) {
+    const unisim_pose& pose = row.pose;
     if (pose.confidence > 0) data.trajectory.push_back({pose.timestamp_ns, pose.T_world_kf});
   }
+  const double map_unit = data.metric ? data.main_scale()->metres_per_unit : 1.0;
+  const auto in_unit = [map_unit](unisim_stamped_pose pose) {
+    for (double& t : pose.T_world_cam.t) t *= map_unit;
+    return pose;
+  };
+  for (unisim_stamped_pose& pose : data.map) pose = in_unit(pose);
   data.map.insert(data.map.end(), data.trajectory.begin(), data.trajectory.end());
   take_away(before, &data.session);
-  for (int64_t k = 0; k < record.live().size(); ++k) data.live.push_back(record.live().get(k));
+  for (int64_t k = 0; k < record.live().size(); ++k) {
+    data.live.push_back(in_unit(record.live().get(k)));
+  }
   if (every_frame) add_between(record, &data);
-  add_submaps(session, record, &data);
   return data;
 }
 

@@ -20,6 +20,9 @@ using tools::Range;
 
 // 12 MB a submap.
 constexpr int64_t kMostPoints = 1000000;
+// An odometer that is surer than this is not known, and one less sure says nothing.
+constexpr double kLeastOdometrySigma = 1e-4;
+constexpr double kMostOdometrySigma = 0.3;
 
 const std::map<std::string, uint32_t> kFactors = {
     {"e2v", UNISIM_FACTOR_TWO_VIEW},
@@ -37,6 +40,7 @@ RunOptions::RunOptions(CLI::App* app, Options* options) : options_(options) {
   add_camera_options(app);
   add_method_options(app);
   add_map_options(app);
+  add_scale_options(app);
   add_model_options(app);
   add_output_options(app);
   add_lcm_options(app);
@@ -60,6 +64,19 @@ void RunOptions::add_camera_options(CLI::App* app) {
       ->transform(in_range(Range::number(-kMostDistortion, kMostDistortion)));
   app->add_option("--calibration", calibration_,
                   "the three from a YAML file as OpenCV, ROS or EuRoC write it");
+}
+
+void RunOptions::add_scale_options(CLI::App* app) {
+  const char* const group = "Metric scale";
+  app->add_option("--odometry", options_->odometry,
+                  "what an odometer said, lines \"time path\", \"time x y [z]\" or TUM poses in "
+                  "seconds and metres: results are in metres")
+      ->group(group);
+  app->add_option("--odometry-sigma", options_->odometry_sigma,
+                  "its standard deviation over the path")
+      ->capture_default_str()
+      ->transform(in_range(Range::number(kLeastOdometrySigma, kMostOdometrySigma)))
+      ->group(group);
 }
 
 void RunOptions::add_method_options(CLI::App* app) {

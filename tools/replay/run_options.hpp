@@ -28,6 +28,7 @@ class RunOptions {
 
  private:
   void add_method_options(CLI::App* app);
+  void add_scale_options(CLI::App* app);
   void add_camera_options(CLI::App* app);
   void add_map_options(CLI::App* app);
   void check_maps() const;

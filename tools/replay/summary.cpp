@@ -61,6 +61,24 @@ Json segments_json(const Scores& scores) {
   return list;
 }
 
+/// Of each segment whose scale is known.
+Json scales_json(const RunData& data) {
+  Json list = Json::array();
+  for (const SegmentScale& scale : data.scales) {
+    list.push_back({{"segment", scale.segment},
+                    {"metres_per_unit", scale.metres_per_unit},
+                    {"sigma", scale.sigma}});
+  }
+  return list;
+}
+
+Json distances_json(const RunData& data) {
+  return {{"taken", data.distances.taken},
+          {"refused", data.distances.refused},
+          {"waiting", data.distances.waiting},
+          {"lost", data.distances.lost}};
+}
+
 /// What the predictor says of its loops: those it counts, and those it looked at and left.
 Json loops_json(const Run& run) {
   const unisim_predictor_info& info = run.result.predictor;
@@ -130,7 +148,8 @@ std::string score_line(const Run& run) {
                           scores.ate->pairs.size(), scores.poses.c_str());
   if (scores.live) line += text(", live poses %.4f m", scores.live->error.rmse);
   if (scores.rpe) line += text(", RPE %.4f m", scores.rpe->translation.rmse);
-  line += text(", 1 unit = %.4g m\n", scores.ate->T_truth_estimate.s);
+  line += text(run.data.metric ? ", 1 m of the map = %.4g m\n" : ", 1 unit = %.4g m\n",
+               scores.ate->T_truth_estimate.s);
   if (scores.segments.size() < 2) return line;
   const SegmentScore& longest = *std::max_element(
       scores.segments.begin(), scores.segments.end(),
@@ -164,6 +183,7 @@ Json summary_json(const Run& run) {
   const Scores& scores = run.scores;
   const pipeline::Progress& progress = run.result.progress;
   const double focal = run.result.predictor.focal_px;
+  const SegmentScale* known = run.data.main_scale();
   return {{"schema", 1},
           {"version", version_text()},
           {"sequence", run.options.sequence},
@@ -179,6 +199,11 @@ Json summary_json(const Run& run) {
           {"ate_rmse_m", rmse_of(scores.ate)},
           {"ate_live_rmse_m", rmse_of(scores.live)},
           {"rpe_trans_rmse_m", scores.rpe ? Json(scores.rpe->translation.rmse) : Json(nullptr)},
+          {"unit", run.data.metric ? "metric" : "relative"},
+          {"metres_per_unit", known != nullptr ? Json(known->metres_per_unit) : Json(nullptr)},
+          {"scale_sigma", known != nullptr ? Json(known->sigma) : Json(nullptr)},
+          {"segment_scales", scales_json(run.data)},
+          {"distances", distances_json(run.data)},
           {"scale", scores.ate ? Json(scores.ate->T_truth_estimate.s) : Json(nullptr)},
           {"score_problem", run.scores.problem.empty() ? Json(nullptr) : Json(run.scores.problem)},
           {"coverage", coverage(run.data)},
@@ -212,6 +237,14 @@ std::string summary_text(const Run& run, const std::vector<std::string>& files) 
   if (unposed > 0) out += " (" + std::to_string(unposed) + " without a pose)";
   if (info.segments > 1) out += ", " + std::to_string(info.segments) + " segments";
   out += "\n" + score_line(run);
+  const SegmentScale* known = run.data.main_scale();
+  if (known != nullptr) {
+    out += text("metric: 1 unit = %.4g m +- %.2g %%, %d distances counted, %d refused\n",
+                known->metres_per_unit, 100.0 * known->sigma, run.data.distances.taken,
+                run.data.distances.refused);
+  } else if (!run.data.scales.empty()) {
+    out += "relative: only some of the segments have a known scale\n";
+  }
   const char* how = run.options.settings.geometric.focal_px > 0.0 ? "given" : "estimated";
   if (result.predictor.focal_px > 0.0) {
     out += text("focal length %.1f px (%s), ", result.predictor.focal_px, how);

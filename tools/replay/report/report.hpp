@@ -54,7 +54,7 @@ struct ReportData {
   std::vector<Figure> figures;
   std::vector<Row> protocol;
 
-  std::string length_unit;  ///< "m" once aligned to ground truth; empty: the map's own unit
+  std::string length_unit;  ///< "m": aligned to ground truth, or metric; empty: the map's own unit
 
   /// Positions in one common frame: that of the ground truth where there is one (then estimate and
   /// live poses are aligned to it).
