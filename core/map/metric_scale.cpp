@@ -116,11 +116,17 @@ Status MetricScale::drop_metre(int32_t place, Graph* graph) {
 }
 
 /// @param log_units log of the world's units in a metre, where the segment has no metre yet
+/// @param[out] node -1: there are as many as there may be, all of later segments
 Status MetricScale::give_metre(int32_t segment, double log_units, Graph* graph, int32_t* node) {
   *node = metre(segment);
   if (*node >= 0) return Status::kOk;
   if (metres_.full()) {
-    const Status status = drop_metre(0, graph);
+    int32_t oldest = 0;
+    for (int32_t k = 1; k < metres_.size(); ++k) {
+      if (metres_[k].segment < metres_[oldest].segment) oldest = k;
+    }
+    if (segment < metres_[oldest].segment) return Status::kOk;
+    const Status status = drop_metre(oldest, graph);
     if (!is_ok(status)) return status;
   }
   const Status status =
@@ -152,6 +158,7 @@ Status MetricScale::show(int32_t node, int32_t segment, Graph* graph) {
   int32_t metre = -1;
   Status status = give_metre(segment, log_units, graph, &metre);
   if (!is_ok(status)) return status;
+  if (metre < 0) return drop_edge(node, graph);
   if (here.edge >= 0 && (here.metre != metre || here.shown_variance != unit_variance_)) {
     status = drop_edge(node, graph);
     if (!is_ok(status)) return status;

@@ -92,6 +92,21 @@ static void close_loop(unisim_session* session, int32_t newest) {
   expect(unisim_optimize(session, NULL, NULL) == UNISIM_OK, "unisim_optimize after a loop");
 }
 
+/* Half a metre for each length of 1. */
+static void say_distance(unisim_session* session, int32_t i, int32_t j) {
+  unisim_distance distance = {.struct_size = sizeof distance, .i = i, .j = j};
+  distance.source = UNISIM_METRIC_ODOMETRY;
+  distance.metres = 0.5 * 0.3 * (j - i) * (1.0 + 0.02 * noise());
+  distance.sigma = 0.02 * distance.metres;
+  expect(unisim_add_distance(session, &distance) == UNISIM_OK, "unisim_add_distance");
+}
+
+static void add_scale_to_hash(unisim_session* session) {
+  unisim_scale scale = {.struct_size = sizeof scale};
+  expect(unisim_get_scale(session, 0, &scale) == UNISIM_OK, "unisim_get_scale");
+  add_to_hash(&scale, sizeof scale);
+}
+
 static void add_poses_to_hash(unisim_session* session) {
   for (int32_t id = 0; id < kKeyframes; ++id) {
     unisim_pose pose = {.struct_size = sizeof pose};
@@ -151,10 +166,12 @@ static void walk(int window_submaps) {
     expect(unisim_add_keyframe(session, &keyframe, &id) == UNISIM_OK, "unisim_add_keyframe");
     answer_pairs(session);
     answer_windows(session);
+    if (k > 0 && k % 4 == 0) say_distance(session, k - 4, k);
     if (k == kKeyframes / 2) close_loop(session, k);
     if (k == kKeyframes / 2 + 5) interrupt(session);
   }
   add_poses_to_hash(session);
+  add_scale_to_hash(session);
   double covariance[49];
   if (unisim_get_covariance(session, kKeyframes - 1, covariance) == UNISIM_OK) {
     add_to_hash(covariance, sizeof covariance);

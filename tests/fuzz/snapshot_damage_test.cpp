@@ -19,6 +19,7 @@ namespace {
 Habits habits_until(int32_t keyframes) {
   Habits habits;
   habits.keyframes = keyframes;
+  habits.metres = 0.3;
   return habits;
 }
 
@@ -111,7 +112,7 @@ TEST_CASE("a snapshot cut anywhere is refused by the section it ends in") {
   const unisim_config config = small_config();
   const SnapshotBytes whole = snapshot_of(config, 3U, 60);
   const std::vector<SnapshotSection> sections = sections_of(whole.bytes);
-  REQUIRE(sections.size() == 9);
+  REQUIRE(sections.size() == 10);
   REQUIRE(sections.back().end == whole.bytes.size());
   OwnedSession owned(config);
   for (size_t size = 0; size < whole.bytes.size(); ++size) {

@@ -111,13 +111,13 @@ TEST_CASE("the scale of a walk lies within its standard deviation, with and with
     const double whitened = error / scale.sigma;
     INFO("seed " << seed << ": error " << error << ", sigma " << scale.sigma << ", refused "
                  << scale.refused);
-    CHECK(std::abs(error) < 0.06);
+    CHECK(std::abs(error) < (slips > 0.0 ? 0.1 : 0.02));
     squares += error * error / kSeeds;
     chi2 += whitened * whitened;
     beyond += std::abs(whitened) > 3.0 ? 1 : 0;
   }
   INFO("rms " << std::sqrt(squares) << ", mean square whitened " << chi2 / kSeeds);
   CHECK(beyond <= 1);
-  CHECK(chi2 / kSeeds > 0.2);
+  CHECK(chi2 / kSeeds > 0.05);
   CHECK(chi2 / kSeeds < 2.0);
 }

@@ -2,6 +2,7 @@
 // unisim-replay with odometry: results in metres, and it says so.
 #include <nlohmann/json.hpp>
 
+#include "tests/replay/damaged_sequence.hpp"
 #include "tests/replay/program.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"

@@ -159,13 +159,19 @@ TEST_CASE("a segment that joins another one gives its metre up and keeps its evi
 TEST_CASE("more segments than metres: that of the first goes") {
   CarvedGraph roomy({40, 80, 20, 4});
   Carved<MetricScale, int32_t> metric(40);
+  int32_t first = -1;
   for (int32_t k = 0; k <= kMostMetres; ++k) {
     int32_t node = -1;
     REQUIRE(is_ok(roomy->add_node(NodeKind::kSubmap, Sim3(), &node)));
+    if (k == 0) first = node;
     metric->add(node, metres(2.0, 0.1));
     REQUIRE(is_ok(metric->show(node, k, &*roomy)));
   }
   CHECK(metric->metres() == kMostMetres);
   CHECK(metric->metre(0) == -1);
   CHECK(metric->metre(kMostMetres) >= 0);
+  // It stays so: the older one takes nobody's place.
+  REQUIRE(is_ok(metric->show(first, 0, &*roomy)));
+  CHECK(metric->metre(0) == -1);
+  CHECK(metric->metre(1) >= 0);
 }

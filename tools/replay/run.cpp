@@ -335,8 +335,8 @@ int run(const Options& options, const Surroundings& around, const std::atomic<bo
   listeners.insert(listeners.end(), input.listeners.begin(), input.listeners.end());
   if (lcm.listener() != nullptr) listeners.push_back(lcm.listener());
   pipeline::Options how = options.settings.pipeline;
-  // The map has colours, also with no need of images.
   if (odometry) how.odometry = {&*odometry, options.odometry_sigma};
+  // The map has colours, also with no need of images.
   how.decode_images = results.has_value() || options.lcm_images;
   how.localise = options.localise;
   pipeline::Pipeline pipeline(how, input.source.get(), predictor.get(), config, listeners, &stop,
