@@ -93,27 +93,36 @@ void DistanceBook::remember(int32_t segment, double log_metres) {
   if (remembered_ == 2 * kMemory) remembered_ = kMemory;
 }
 
-/// Which of the open distances of a segment agree with those around them.
-void DistanceBook::judge(int32_t segment) {
+bool DistanceBook::belongs(const Entry& entry, int32_t segment) const {
+  return entry.submap >= 0 && map_.submaps[entry.submap].segment == segment;
+}
+
+/// What those around say, closed ones and open ones, in the world's unit. @return their number
+int32_t DistanceBook::gather(int32_t segment) {
   int32_t count = 0;
   for (const Remembered& old : memory_) {
     if (old.segment == segment) values_[count++] = old.log_metres;
   }
-  const auto belongs = [&](const Entry& entry) {
-    return entry.submap >= 0 && map_.submaps[entry.submap].segment == segment;
-  };
+  for (const Entry& entry : distances_) {
+    if (belongs(entry, segment) && entry.long_enough) values_[count++] = entry.log_metres;
+  }
+  return count;
+}
+
+/// Which of the open distances of a segment agree with those around them.
+void DistanceBook::judge(int32_t segment) {
   for (Entry& entry : distances_) {
-    if (!belongs(entry)) continue;
+    if (!belongs(entry, segment)) continue;
     const ScaleEvidence one = measure(entry);
     entry.long_enough = one.known();
     const Submap& submap = map_.submaps[entry.submap];
     entry.log_metres = one.log_metres - math::log(map_.submap_pose(submap).s);
-    if (entry.long_enough) values_[count++] = entry.log_metres;
   }
+  const int32_t count = gather(segment);
   if (count == 0) return;
   const Consensus others = consensus_of(values_.subspan(0, count));
   for (Entry& entry : distances_) {
-    if (!belongs(entry)) continue;
+    if (!belongs(entry, segment)) continue;
     entry.taken = entry.long_enough && others.accepts(entry.log_metres, measure(entry).information);
   }
 }
@@ -186,6 +195,14 @@ bool DistanceBook::measure_on_map(const Distance& distance) {
   }
   const double log_world = log_metres_per_unit(distance.metres, p, q);
   const double variance = distance.sigma * distance.sigma + kWaySigma * kWaySigma;
+  const int32_t segment = keyframes[distance.i].segment;
+  const int32_t around = gather(segment);
+  values_[around] = log_world;
+  remember(segment, log_world);
+  if (!consensus_of(values_.subspan(0, around + 1)).accepts(log_world, 1.0 / variance)) {
+    ++counts_.refused;
+    return true;
+  }
   for (const int32_t node : way_) {
     const ScaleEvidence world = {log_world, 1.0 / (variance * way_.size())};
     map_.metric.add(node, world.of_unit(math::log(map_.graph.pose(node).s)));

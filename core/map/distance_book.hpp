@@ -80,6 +80,8 @@ class DistanceBook {
   ScaleEvidence measure(const Entry& entry) const;
   void open(int32_t submap);
   void close(int32_t submap);
+  bool belongs(const Entry& entry, int32_t segment) const;
+  int32_t gather(int32_t segment);
   void judge(int32_t segment);
   void remember(int32_t segment, double log_metres);
   void close_retired();
