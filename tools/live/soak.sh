@@ -7,7 +7,7 @@ set -euo pipefail
 usage() {
   cat <<'TEXT'
 usage: tools/live/soak.sh FOLDER_OF_IMAGES [MINUTES]
-  plays FOLDER_OF_IMAGES/* (sorted, at 30 frames/s) back and forth for MINUTES (30) through unisim-live with
+  plays FOLDER_OF_IMAGES/* (sorted) back and forth as a camera of 30 frames/s for MINUTES (30) through unisim-live with
   --lcm --web --out, somebody looking at the page, and prints a line every half minute and the figures
   environment: UNISIM_LIVE (build/release/bin/unisim-live), PATTERN (*.color.*), ARGUMENTS of unisim-live
 TEXT
@@ -50,7 +50,7 @@ awk -v frames=$((minutes * 60 * 30)) '
   }' "$work/names" >"$work/loop/rgb.txt"
 
 read -ra more <<<"${ARGUMENTS:-}"
-"$live" --device "$work/loop" --format tum --out "$work/out" --no-record-images --web 0 \
+"$live" --device "$work/loop" --format tum --as-camera --out "$work/out" --no-record-images --web 0 \
   --lcm "udpm://239.255.76.67:7667?ttl=0" "${more[@]}" >"$work/log" 2>&1 &
 pid=$!
 url=
@@ -63,19 +63,20 @@ curl -sN "${url}events" >/dev/null &
 watcher=$!
 
 sample() { awk '/VmRSS/ { printf "%.1f MB", $2 / 1000 }' "/proc/$pid/status" 2>/dev/null || true; }
-seconds=0
+SECONDS=0
+next=30
 while kill -0 "$pid" 2>/dev/null; do
   sleep 1
-  seconds=$((seconds + 1))
-  if [ $((seconds % 30)) -eq 0 ]; then
+  if [ $SECONDS -ge $next ]; then
+    next=$((next + 30))
     figures=$(timeout 5 curl -sN --max-time 2 "${url}events" 2>/dev/null | sed -n 's/^data: {"source".*"frames":/frames /p' |
       sed 's/"//g; s/,stages.*//' | tail -n 1) || true
-    printf '%4d s  memory %s  %s\n' "$seconds" "$(sample)" "$figures"
+    printf '%4d s  memory %s  %s\n' $SECONDS "$(sample)" "$figures"
   fi
 done
 result=0
 wait "$pid" || result=$?
 pid=
 grep -v '^tracking' "$work/log" | tail -n 25
-echo "unisim-live ended with $result after $seconds s"
+echo "unisim-live ended with $result after $SECONDS s"
 exit "$result"
