@@ -64,7 +64,7 @@ list(JOIN capi_standard_headers "|" capi_standard)
 # core and capi state all they may see.
 unisim_scan(core "^core/" "^Eigen/" "^(${core_standard})$")
 unisim_scan(capi/src "^capi/src/" "^core/(session|map/place_index)\\.hpp$" "^unisim/(places|unisim)\\.h$" "^(${capi_standard})$")
-unisim_scan(capi/include "^unisim/(config|places|results|snapshot|types|unisim|version)\\.h$" "^std(def|int)\\.h$")
+unisim_scan(capi/include "^unisim/(config|metric|places|results|snapshot|types|unisim|version)\\.h$" "^std(def|int)\\.h$")
 unisim_scan(capi/examples "^unisim/unisim\\.h$" "^[a-z]+\\.h$")
 
 # Above, only what is ours is restricted: the core is reached through unisim.h alone.

@@ -68,8 +68,8 @@ struct DistanceInput {
 /// Checked measurement of a submap's unit.
 struct UnitInput {
   int32_t submap = -1;
-  double log_metres = 0.0;  ///< of one unit of its prediction as it was last measured
-  double sigma = 0.0;       ///< of that
+  double metres = 0.0;  ///< in one unit of its prediction as it was last measured
+  double sigma = 0.0;   ///< of its logarithm
   MetricSource source = MetricSource::kModel;
   double common_sigma = 0.0;
 };
@@ -87,8 +87,8 @@ struct MetricSources {
 
 /// What is known of the metre of a segment.
 struct ScaleOutput {
-  double log_metres_per_unit = 0.0;  ///< world unit
-  double sigma = 0.0;                ///< of that
+  double metres_per_unit = 0.0;  ///< world unit
+  double sigma = 0.0;            ///< of its logarithm
 };
 
 /// Pose of a keyframe as it is given out.

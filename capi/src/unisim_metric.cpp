@@ -5,7 +5,6 @@
 #include "capi/src/handle.hpp"
 #include "capi/src/read_write.hpp"
 #include "capi/src/struct_size.hpp"
-#include "core/base/math.hpp"
 
 using unisim::check_session;
 using unisim::core;
@@ -59,8 +58,8 @@ unisim_status unisim_add_submap_unit(unisim_session* session, const unisim_subma
   const bool good = is_source(u.source) && is_length(u.metres) && is_relative(u.sigma) &&
                     is_common(u.common_sigma);
   if (!good) return UNISIM_ERR_INVALID_ARGUMENT;
-  return to_c(core(session)->add_unit({u.submap_id, unisim::math::log(u.metres), u.sigma,
-                                       static_cast<MetricSource>(u.source), u.common_sigma}));
+  return to_c(core(session)->add_unit(
+      {u.submap_id, u.metres, u.sigma, static_cast<MetricSource>(u.source), u.common_sigma}));
 }
 
 unisim_status unisim_get_scale(unisim_session* session, int32_t segment, unisim_scale* scale) {
@@ -74,7 +73,7 @@ unisim_status unisim_get_scale(unisim_session* session, int32_t segment, unisim_
   const unisim::DistanceCounts counts = core(session)->distances().counts();
   unisim_scale s = {};
   s.segment = segment;
-  s.metres_per_unit = unisim::math::exp(known.log_metres_per_unit);
+  s.metres_per_unit = known.metres_per_unit;
   s.sigma = known.sigma;
   s.taken = counts.taken;
   s.refused = counts.refused;

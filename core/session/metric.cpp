@@ -48,7 +48,7 @@ Status Session::add_unit(const UnitInput& input) {
   if (!map_.submaps.has(input.submap)) return Status::kInvalidArgument;
   const Submap& submap = map_.submaps[input.submap];
   if (submap.is_loop || submap.place.node < 0) return Status::kInvalidArgument;
-  const ScaleEvidence unit = {input.log_metres, 1.0 / (input.sigma * input.sigma)};
+  const ScaleEvidence unit = {math::log(input.metres), 1.0 / (input.sigma * input.sigma)};
   map_.metric.add(submap.place.node, unit.of_unit(-math::log(submap.place.T_node_submap.s)));
   sources_.add(input.source, input.sigma, input.common_sigma);
   return Status::kOk;
@@ -95,7 +95,7 @@ Status Session::scale(int32_t segment, ScaleOutput* scale) {
   }
   const double sigma = map_.metric.sigma(segment);
   if (sigma < 0.0) return Status::kNotReady;
-  scale->log_metres_per_unit = -math::log(map_.graph.pose(metre).s);
+  scale->metres_per_unit = 1.0 / map_.graph.pose(metre).s;
   scale->sigma = std::sqrt(sigma * sigma + sources_.common_variance());
   return Status::kOk;
 }
