@@ -87,8 +87,10 @@ void Session::visit_settings(Archive* archive) {
   archive->same("preset", static_cast<int32_t>(config.preset));
   archive->same("depth_grid_width", config.grid.width);
   archive->same("depth_grid_height", config.grid.height);
-  archive->same("window_submaps", config.slides() ? 1 : 0);
-  archive->at_least("window_submaps", config.window_submaps);
+  int32_t windows = config.window_submaps;
+  archive->value(&windows);
+  archive->fits("window_submaps", (windows > 0) == config.slides(), windows, config.window_submaps);
+  archive->need("window_submaps", windows, config.window_submaps);
   archive->at_least("window_size", config.window_size);
   archive->at_least("window_overlap", config.window_overlap);
   archive->at_least("skeleton_capacity", capacity.skeleton);

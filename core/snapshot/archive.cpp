@@ -58,7 +58,11 @@ void Archive::need(const char* setting, int64_t needed, int64_t given) {
 void Archive::same(const char* setting, int32_t ours) {
   int32_t saved = ours;
   value(&saved);
-  if (saved != ours) note(LoadProblem::kSetting, setting, saved, ours);
+  fits(setting, saved == ours, saved, ours);
+}
+
+void Archive::fits(const char* setting, bool is_so, int64_t needed, int64_t given) {
+  if (loading() && !is_so) note(LoadProblem::kSetting, setting, needed, given);
 }
 
 void Archive::at_least(const char* setting, int32_t ours) {

@@ -99,6 +99,8 @@ class Archive {
   void expect(bool holds) { require(holds, LoadProblem::kContent); }
   /// To load: the configuration must have room.
   void need(const char* setting, int64_t needed, int64_t given);
+  /// To load: a setting of the configuration must be of the same kind.
+  void fits(const char* setting, bool is_so, int64_t needed, int64_t given);
   /// A setting that must be the one of the session that saved.
   void same(const char* setting, int32_t ours);
   /// A setting that must be at least that of the session that saved.

@@ -294,6 +294,8 @@ TEST_CASE("a session that is too small or another one says which number") {
   report = refused(config);
   CHECK(report.problem == UNISIM_LOAD_SETTING);
   CHECK(std::string(report.setting) == "window_submaps");
+  CHECK(report.needed == 2);
+  CHECK(report.given == 0);
   struct Case {
     const char* setting;
     int32_t unisim_config::* field;

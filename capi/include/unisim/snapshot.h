@@ -1,6 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /** @file snapshot.h
- *  A map that outlives the run: saved and loaded through callbacks; included by unisim.h. */
+ *  A map that outlives the run: saved and loaded through callbacks; included by unisim.h.
+ *
+ *      static int32_t to_file(void* file, const void* bytes, size_t size) {
+ *        return fwrite(bytes, size, 1, (FILE*)file) == 1;
+ *      }
+ *      static int32_t from_file(void* file, void* bytes, size_t size) {
+ *        return fread(bytes, size, 1, (FILE*)file) == 1;
+ *      }
+ *      status = unisim_save_map(session, to_file, file);
+ *      status = unisim_load_map(next_session, from_file, file); */
 #ifndef UNISIM_SNAPSHOT_H
 #define UNISIM_SNAPSHOT_H
 

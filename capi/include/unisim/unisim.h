@@ -52,7 +52,7 @@ typedef struct unisim_keyframe {
 
 /** Append a keyframe.
  *  @param session live session
- *  @param[in]  keyframe timestamps must grow
+ *  @param[in]  keyframe timestamps must grow; the first one after unisim_load_map() may be anything
  *  @param[out] id       0, 1, 2 ... in order of arrival
  *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT (NULL, time not after the last),
  *          UNISIM_ERR_CAPACITY (full batch: max_keyframes; sliding window: ids used up) */
