@@ -104,6 +104,14 @@ typedef struct unisim_pipeline_config {
                                memory (NULL) */
   int32_t lcm_images;     /**< 1: each frame is sent too (0) */
   int32_t lcm_points;     /**< points sent of each submap; 0: none (0) */
+
+  const char* load_map; /**< copied; file of an earlier run to go on in: the session needs the shape
+                             it had then; NULL: an empty map (NULL) */
+  const char* save_map; /**< copied; file that gets the map when the run ends, in place of what it
+                             was; NULL: none (NULL) */
+  int32_t localise; /**< 1: frames, every stride-th, are looked for in load_map, which stays as it
+                       is, and those that are found get a pose (0) */
+  int32_t reserved; /**< 0 */
 } unisim_pipeline_config;
 
 /** A run. */

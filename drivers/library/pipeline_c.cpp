@@ -10,6 +10,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "drivers/geometric/geometric.h"
 #include "drivers/lcm/session_publisher.hpp"
 #include "drivers/library/pipeline.h"
+#include "drivers/pipeline/map_saving.hpp"
 #include "drivers/pipeline/pipeline.hpp"
 #include "drivers/pipeline/session_defaults.hpp"
 #include "drivers/pipeline/similarity.hpp"
@@ -62,6 +64,8 @@ struct unisim_pipeline : Listener {
   explicit unisim_pipeline(const unisim_pipeline_config& given) : config(given) {}
 
   Preparation prepare();
+  Preparation load_map();
+  void save_map() const;
   void listen_for_lcm(std::vector<Listener*>* listeners);
   void start();
   int wait(std::chrono::milliseconds time);
@@ -80,6 +84,7 @@ struct unisim_pipeline : Listener {
   PredictorPtr predictor;
   std::unique_ptr<unisim::lcm::SessionPublisher> publisher;  // NULL: not told over LCM
   std::unique_ptr<Pipeline> run;
+  std::optional<std::string> map_to_save;
   std::atomic<bool> stop{false};
   std::thread thread;
 
@@ -119,6 +124,12 @@ Preparation unisim_pipeline::prepare() {
   options.every_frame = config.every_frame != 0;
   options.keyframes.stride = config.stride;
   options.patience_s = config.patience_ms / 1000.0;
+  options.localise = config.localise != 0;
+  if (options.localise && (config.load_map == nullptr || config.save_map != nullptr)) {
+    return {Answer::kBadConfiguration,
+            "pipeline: localise needs load_map, and leaves nothing for save_map"};
+  }
+  if (config.save_map != nullptr) map_to_save = config.save_map;
   if (config.session == nullptr) {
     const bool places = unisim::drivers::has_places(*predictor);
     session.max_keyframes = unisim::pipeline::keyframe_capacity(
@@ -133,7 +144,21 @@ Preparation unisim_pipeline::prepare() {
   run =
       std::make_unique<Pipeline>(options, source.get(), predictor.get(), session, listeners, &stop);
   if (publisher != nullptr) publisher->attach(run.get());
-  return run->prepare();
+  const Preparation ready = run->prepare();
+  return ready.answer == Answer::kReady ? load_map() : ready;
+}
+
+void unisim_pipeline::save_map() const {
+  unisim::mapfile::About about;
+  about.program = "libunisim_drivers";
+  unisim::pipeline::save_map(*map_to_save, about, *run, predictor.get());
+}
+
+Preparation unisim_pipeline::load_map() {
+  if (map_to_save) unisim::mapfile::check_writable(*map_to_save);
+  if (config.load_map == nullptr) return {};
+  unisim::mapfile::MapFile map(config.load_map);
+  return run->load(&map);
 }
 
 void unisim_pipeline::listen_for_lcm(std::vector<Listener*>* listeners) {
@@ -152,6 +177,7 @@ void unisim_pipeline::start() {
       const auto& result = run->run();
       if (publisher != nullptr) publisher->finish();
       if (result.source_held) static_cast<void>(source.release());  // it may still come back
+      if (map_to_save) save_map();
       const bool failed =
           result.outcome != Outcome::kFinished && result.outcome != Outcome::kStopped;
       finish(failed                                ? UNISIM_PIPELINE_FAILED

@@ -265,6 +265,8 @@ bool Pipeline::Impl::take_keyframe(const unisim_frame& frame) {
   int32_t id = -1;
   if (!went_well(builder_->add_keyframe(frame, &id))) return false;
   ++result_.progress.keyframes;
+  result_.image_width = frame.image.width;
+  result_.image_height = frame.image.height;
   for (Listener* listener : listeners_) listener->on_keyframe(id, frame);
   const bool goes_on = went_well(builder_->serve_pairs());
   give_out_live();

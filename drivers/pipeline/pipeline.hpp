@@ -53,6 +53,8 @@ struct Result {
   unisim_predictor_info predictor{};
   int64_t heap_calls = -1;  ///< inside the library after create, -1: not counted
   LaneReport lanes;
+  int32_t image_width = 0;  ///< of the keyframes, pixels
+  int32_t image_height = 0;
   bool source_held = false;  ///< the source has not come back from its last call: do not destroy it
   double wall_s = 0.0;
 };

@@ -12,6 +12,8 @@
 
 #include "tests/pipeline/scripted_world.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tests/support/text.hpp"
 
 using namespace unisim::testing;
 
@@ -243,4 +245,63 @@ TEST_CASE("structs of another size are filled as far as both sides know them") {
   CHECK(smaller.frames == 200);
   CHECK(smaller.keyframes == 0x55555555);
   unisim_pipeline_stop(pipeline);
+}
+
+TEST_CASE("a run saves its map, and another one goes on in it or only looks into it") {
+  const TempFolder folder;
+  const std::string path = folder / "room.map";
+  CRun first(100);
+  first.session.live_scale_exponent = 1.0;  // as found, so that first poses compare
+  first.config.save_map = path.c_str();
+  unisim_pipeline* pipeline = first.start();
+  INFO(first.message);
+  REQUIRE(pipeline != nullptr);
+  CHECK(wait_for_end(pipeline) == UNISIM_PIPELINE_FINISHED);
+  CHECK(std::string(unisim_pipeline_message(pipeline)).empty());
+  CHECK(unisim_pipeline_stop(pipeline) == UNISIM_PIPELINE_FINISHED);
+  const std::string saved = read_file(path);
+  REQUIRE_FALSE(saved.empty());
+
+  CRun second(60);
+  second.session.live_scale_exponent = 1.0;
+  second.config.load_map = path.c_str();
+  SECTION("goes on") {
+    pipeline = second.start();
+    INFO(second.message);
+    REQUIRE(pipeline != nullptr);
+    CHECK(wait_for_end(pipeline) == UNISIM_PIPELINE_FINISHED);
+    CHECK(unisim_pipeline_stop(pipeline) == UNISIM_PIPELINE_FINISHED);
+    REQUIRE(second.told.keyframes.size() == 12);
+    CHECK(second.told.keyframes.front().keyframe_id == 20);
+    // The same way again, in the frame and the unit of the first run.
+    for (size_t k = 0; k < 12; ++k) {
+      CHECK(second.told.keyframes[k].segment == 0);
+      CHECK(distance(second.told.keyframes[k].T_world_kf, first.told.keyframes[k].T_world_kf) <
+            0.01);
+    }
+  }
+  SECTION("only looks into it") {
+    second.config.localise = 1;
+    second.config.stride = 0;
+    pipeline = second.start();
+    INFO(second.message);
+    REQUIRE(pipeline != nullptr);
+    CHECK(wait_for_end(pipeline) == UNISIM_PIPELINE_FINISHED);
+    CHECK(unisim_pipeline_stop(pipeline) == UNISIM_PIPELINE_FINISHED);
+    CHECK(second.told.poses.size() == 60 - 9);
+    CHECK(second.told.keyframes.empty());
+    CHECK(second.told.lines.size() == 6);  // five of those not found, and how many more
+    CHECK(read_file(path) == saved);
+  }
+  SECTION("a session of another shape is refused before it runs") {
+    second.session.window_size = 6;
+    CHECK(second.start() == nullptr);
+    CHECK(has(second.message, "session.window_size = 8"));
+  }
+  SECTION("no map, no localising") {
+    second.config.localise = 1;
+    second.config.load_map = nullptr;
+    CHECK(second.start() == nullptr);
+    CHECK(has(second.message, "load_map"));
+  }
 }

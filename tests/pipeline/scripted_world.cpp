@@ -102,6 +102,22 @@ ScriptedPredictor::ScriptedPredictor() {
   t.frame_pose = [](unisim_predictor* p, unisim_frame_pose* out) {
     return self(p)->frame_pose(out);
   };
+  t.save_map = [](unisim_predictor* p, unisim_map_write write, void* context) {
+    return self(p)->save_map(write, context);
+  };
+  t.load_map = [](unisim_predictor* p, unisim_map_read read, void* context, int32_t* next) {
+    return self(p)->load_map(read, context, next);
+  };
+  // Every seventh frame shows something else.
+  t.locate = [](unisim_predictor* p, const unisim_frame* frame, unisim_location* out) {
+    if (frame->index % 7 == 3) return UNISIM_PREDICTION_REJECTED;
+    *out = {true_pose(frame->index), self(p)->keyframes_now() / 2, 0, 45, 60, 0, 0};
+    return UNISIM_PREDICTION_OK;
+  };
+  t.map_pose = [](unisim_predictor* p, int32_t id, unisim_map_pose* out) {
+    *out = {true_pose(self(p)->keyframe_frame(id)), 0, 0};
+    return UNISIM_PREDICTION_OK;
+  };
   t.finish = [](unisim_predictor* p) {
     self(p)->finished_ = true;
     return UNISIM_PREDICTION_OK;
@@ -253,6 +269,23 @@ int ScriptedPredictor::frame_pose(unisim_frame_pose* out) {
   out->T_kf_frame =
       relative_pose(true_pose(keyframes.back()), true_pose(newest_frame_), pair_unit(newest - 1));
   return UNISIM_PREDICTION_OK;
+}
+
+/// The frames of the keyframes, their number first.
+int ScriptedPredictor::save_map(unisim_map_write write, void* context) const {
+  const auto count = static_cast<int64_t>(keyframes.size());
+  const bool all = write(context, &count, sizeof count) != 0 &&
+                   write(context, keyframes.data(), keyframes.size() * sizeof keyframes[0]) != 0;
+  return all ? UNISIM_PREDICTION_OK : UNISIM_PREDICTION_REJECTED;
+}
+
+int ScriptedPredictor::load_map(unisim_map_read read, void* context, int32_t* next_keyframe) {
+  int64_t count = 0;
+  if (read(context, &count, sizeof count) == 0) return UNISIM_PREDICTION_REJECTED;
+  keyframes.resize(static_cast<size_t>(count));
+  const bool all = read(context, keyframes.data(), keyframes.size() * sizeof keyframes[0]) != 0;
+  *next_keyframe = static_cast<int32_t>(count);
+  return all ? UNISIM_PREDICTION_OK : UNISIM_PREDICTION_REJECTED;
 }
 
 }  // namespace unisim::testing

@@ -109,6 +109,8 @@ class ScriptedPredictor {
   int next_revision(unisim_window_revision* out);
   int next_wide_window(int32_t max_views, unisim_window_prediction* out);
   int frame_pose(unisim_frame_pose* out);
+  int save_map(unisim_map_write write, void* context) const;
+  int load_map(unisim_map_read read, void* context, int32_t* next_keyframe);
   void give_window(Arrays* arrays, unisim_window_prediction* out) const;
   void fill_poses(double noise, double bend, Arrays* arrays) const;
   unisim_depth_map depth_of(int32_t keyframe, double unit, std::vector<float>* storage) const;

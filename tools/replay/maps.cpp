@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "drivers/common/size_text.hpp"
+#include "drivers/pipeline/map_saving.hpp"
 #include "tools/common/failure.hpp"
 #include "tools/replay/version.hpp"
 
@@ -67,29 +68,14 @@ void hand_over(mapfile::MapFile* map, pipeline::Pipeline* pipeline) {
   }
 }
 
-void MapSaver::on_keyframe(int32_t /*id*/, const unisim_frame& frame) {
-  size_ = {frame.image.width, frame.image.height};
-}
-
-std::string MapSaver::save(const pipeline::Pipeline& pipeline, unisim_predictor* predictor) const {
-  const pipeline::Outcome outcome = pipeline.result().outcome;
-  if (outcome == pipeline::Outcome::kPredictorFailed ||
-      outcome == pipeline::Outcome::kSessionFailed) {
-    return "no map is saved after such an end";
-  }
-  unisim_session_info info{};
-  info.struct_size = sizeof info;
-  if (unisim_get_info(pipeline.session(), &info) != UNISIM_OK ||
-      info.posed_keyframes <= pipeline.before().posed_keyframes) {
-    return "no map is saved: no keyframe of this run has a pose";
-  }
+std::string save_map(const Options& options, const pipeline::Pipeline& pipeline,
+                     unisim_predictor* predictor) {
+  if (options.save_map.empty()) return "";
   mapfile::About about;
-  about.program = std::string(options_.program) + " " + version_text();
-  about.sequence = options_.sequence;
-  about.image_width = size_.width;
-  about.image_height = size_.height;
+  about.program = std::string(options.program) + " " + version_text();
+  about.sequence = options.sequence;
   try {
-    mapfile::save_map(options_.save_map, about, pipeline.session(), predictor);
+    pipeline::save_map(options.save_map, about, pipeline, predictor);
     return "";
   } catch (const mapfile::Error& error) {
     return error.what();

@@ -19,19 +19,9 @@ std::optional<mapfile::MapFile> open_map(const Options& options);
 /// Hands it to a pipeline that is prepared. Throws Failure (3).
 void hand_over(mapfile::MapFile* map, pipeline::Pipeline* pipeline);
 
-/// Saves the map of a run for --save-map.
-class MapSaver : public pipeline::Listener {
- public:
-  explicit MapSaver(const Options& options) : options_(options) {}
-
-  void on_keyframe(int32_t id, const unisim_frame& frame) override;
-
-  /// After the run. @return why there is no map, "" where there is one
-  std::string save(const pipeline::Pipeline& pipeline, unisim_predictor* predictor) const;
-
- private:
-  const Options& options_;
-  FrameSize size_;
-};
+/// Saves the map of a run for --save-map. @return why there is no map, "" where there is one, or
+/// none was asked for
+std::string save_map(const Options& options, const pipeline::Pipeline& pipeline,
+                     unisim_predictor* predictor);
 
 }  // namespace unisim::replay

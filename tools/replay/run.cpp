@@ -313,7 +313,6 @@ int run(const Options& options, const Surroundings& around, const std::atomic<bo
   std::optional<LocalisedFrames> located;
   if (!options.out.empty() && options.localise) located.emplace(options);
   if (!options.out.empty() && !options.localise) results.emplace(options);
-  MapSaver saver(options);
   LcmOutput lcm(options);
   const std::optional<pipeline::Odometry> odometry = read_odometry(options.odometry);
   Input input = around.open();
@@ -331,7 +330,6 @@ int run(const Options& options, const Surroundings& around, const std::atomic<bo
     listeners.insert(listeners.end(), own.begin(), own.end());
   }
   if (located) listeners.push_back(&*located);
-  if (!options.save_map.empty()) listeners.push_back(&saver);
   listeners.insert(listeners.end(), input.listeners.begin(), input.listeners.end());
   if (lcm.listener() != nullptr) listeners.push_back(lcm.listener());
   pipeline::Options how = options.settings.pipeline;
@@ -355,8 +353,7 @@ int run(const Options& options, const Surroundings& around, const std::atomic<bo
     const int written = located->write(result, input.truth, format);
     return code == tools::kExitDone ? written : code;
   }
-  const std::string map_problem =
-      options.save_map.empty() ? "" : saver.save(pipeline, predictor.get());
+  const std::string map_problem = save_map(options, pipeline, predictor.get());
   if (!results) return conclude(result, options, {lcm.problem(), map_problem});
   const RunState state = {options,
                           result,
