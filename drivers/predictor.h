@@ -172,6 +172,8 @@ typedef struct unisim_predictor_info {
   int32_t loops_accepted; /**< of these: counted loops */
   int32_t relocalised;    /**< times a lost track was found again in the map */
   int32_t joined;         /**< segments that were joined to another one */
+  double center_x_px; /**< last estimate of the principal point, from the middle of the image to */
+  double center_y_px; /**< the right and down; 0, 0: the middle, or not known */
 } unisim_predictor_info;
 
 /** A predictor. Free with destroy(predictor). Functions marked optional may be NULL. */

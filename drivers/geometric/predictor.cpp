@@ -226,6 +226,8 @@ void info(unisim_predictor* predictor, unisim_predictor_info* out) {
   out->focal_px = intrinsics.camera.focal_px;
   out->focal_sigma_px = intrinsics.log_focal_sigma * intrinsics.camera.focal_px;
   out->radial_k1 = intrinsics.camera.k1;
+  out->center_x_px = intrinsics.camera.cx - intrinsics.middle.x;
+  out->center_y_px = intrinsics.camera.cy - intrinsics.middle.y;
 }
 
 /// Copies the mask's pixels.

@@ -129,6 +129,12 @@ struct InfoKey {
   std::int32_t static_frames;
 };
 
+/// After it: the principal point from the middle of the image. Older files end before.
+struct InfoCenter {
+  double x_px;
+  double y_px;
+};
+
 struct EndKey {
   std::int64_t record_count;  ///< records before this one
 };

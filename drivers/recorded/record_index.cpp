@@ -210,6 +210,14 @@ const char* RecordIndex::set_info(const RecordRef& record, const AlignedBytes& k
   info_.restarts = info.restarts;
   info_.rotation_only = info.rotation_only;
   info_.static_frames = info.static_frames;
+  if (record.head.key_bytes < sizeof(InfoKey) + sizeof(InfoCenter)) return nullptr;
+  InfoCenter center{};
+  std::memcpy(&center, key.data() + sizeof(InfoKey), sizeof center);
+  if (!std::isfinite(center.x_px) || !std::isfinite(center.y_px)) {
+    return "principal point is not a number";
+  }
+  info_.center_x_px = center.x_px;
+  info_.center_y_px = center.y_px;
   return nullptr;
 }
 

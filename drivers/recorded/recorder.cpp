@@ -239,6 +239,7 @@ void write_end(Recorder& recorder) {
       [&](RecordBytes& bytes) {
         bytes.put(InfoKey{last.focal_px, last.focal_sigma_px, last.radial_k1, last.state_bytes,
                           last.initialised, last.restarts, last.rotation_only, last.static_frames});
+        bytes.put(InfoCenter{last.center_x_px, last.center_y_px});
       },
       kNoData);
   store(

@@ -36,7 +36,7 @@ State random_state(std::mt19937* random) {
   return state;
 }
 
-// Unknown 0-5 camera, 6-8 point, 9 log f, 10 k1.
+// Unknown 0-5 camera, 6-8 point, 9 log f, 10 k1, 11 cx, 12 cy.
 State moved(const State& from, int unknown, double h) {
   State to = from;
   if (unknown < 6) {
@@ -45,8 +45,10 @@ State moved(const State& from, int unknown, double h) {
     to.point[unknown - 6] += h;
   } else if (unknown == 9) {
     to.intrinsics.log_focal += h;
-  } else {
+  } else if (unknown == 10) {
     to.intrinsics.k1 += h;
+  } else {
+    (unknown == 11 ? to.intrinsics.cx : to.intrinsics.cy) += h;
   }
   return to;
 }
@@ -68,10 +70,10 @@ TEST_CASE("reprojection Jacobians agree with central differences") {
     ReprojectionResidual J;
     reprojection_jacobian(residual_intrinsics(s.intrinsics, kScale), s.pose.R,
                           s.pose.apply(s.point), s.u, s.v, kWeight, &J);
-    Eigen::Matrix<double, 2, 11> analytic;
+    Eigen::Matrix<double, 2, 13> analytic;
     analytic.row(0) << J.camera0.transpose(), J.point0.transpose(), J.intrinsics0.transpose();
     analytic.row(1) << J.camera1.transpose(), J.point1.transpose(), J.intrinsics1.transpose();
-    for (int k = 0; k < 11; ++k) {
+    for (int k = 0; k < 13; ++k) {
       const Eigen::Vector2d numeric =
           (reprojection(moved(s, k, kStep)) - reprojection(moved(s, k, -kStep))) / (2.0 * kStep);
       INFO("unknown " << k);

@@ -62,6 +62,9 @@ TEST_CASE("bundle adjustment recovers an exact scene") {
     problem.intrinsics.free_k1 = true;
     problem.intrinsics.log_focal += 0.15;
     problem.intrinsics.k1 = 0.02;
+    problem.intrinsics.free_center = true;
+    problem.intrinsics.cx += 9.0;
+    problem.intrinsics.cy -= 6.0;
   }
   const BundleResult result = adjuster.solve(&problem, thorough());
   REQUIRE(result.initial_cost > 1e3);
@@ -70,6 +73,8 @@ TEST_CASE("bundle adjustment recovers an exact scene") {
   REQUIRE(center_error(scene, problem) < 1e-8);
   REQUIRE(std::exp(problem.intrinsics.log_focal) == Approx(525.0).epsilon(1e-8));
   REQUIRE(problem.intrinsics.k1 == Approx(-0.03).epsilon(1e-6));
+  REQUIRE(problem.intrinsics.cx == Approx(319.5).epsilon(1e-7));
+  REQUIRE(problem.intrinsics.cy == Approx(239.5).epsilon(1e-7));
   if (fixed > 1) REQUIRE(scale(scene, problem) == Approx(1.0).epsilon(1e-8));
   for (int i = 0; i < fixed; ++i) {
     const std::size_t k = static_cast<std::size_t>(i);

@@ -50,3 +50,33 @@ TEST_CASE("the prior on the radial term lets a barrel lens go far, and only that
   CHECK(sigma_at(0.3) > 0.2);
   CHECK(sigma_at(-0.3) == Approx(0.02));
 }
+
+TEST_CASE("the principal point is held in the middle until the camera has turned") {
+  const cv::Size size(640, 480);
+  Intrinsics intrinsics = Intrinsics::start(size, 0);
+  BundleIntrinsics problem;
+  intrinsics.note_rotation(0.15);
+  intrinsics.give(false, &problem);
+  CHECK_FALSE(problem.free_center);
+  intrinsics.note_rotation(0.25);
+  intrinsics.give(true, &problem);
+  CHECK_FALSE(problem.free_center);  // while the state is young
+  intrinsics.give(false, &problem);
+  CHECK(problem.free_center);
+  CHECK(problem.cx_mean == 319.5);
+  CHECK(problem.cy_mean == 239.5);
+
+  problem.cx = 322.0;
+  problem.cy = 1000.0;  // in no camera
+  intrinsics.take(problem, size);
+  CHECK(intrinsics.camera.cx == 322.0);
+  CHECK(intrinsics.camera.cy == 319.5);
+}
+
+TEST_CASE("a principal point that was given is held") {
+  Intrinsics intrinsics = Intrinsics::start(cv::Size(640, 480), 0, false, true);
+  BundleIntrinsics problem;
+  intrinsics.note_rotation(1.0);
+  intrinsics.give(false, &problem);
+  CHECK_FALSE(problem.free_center);
+}

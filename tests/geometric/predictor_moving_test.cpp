@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the geometric predictor makes of a camera that moves.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -45,6 +46,29 @@ TEST_CASE("a known focal length is kept and serves the poses") {
   CHECK(run.info().focal_px == kFocal);
   CHECK(std::abs(run.info().radial_k1) < 0.01);
   CHECK(relative_error(run.window(0, run.keyframes()), run.places()) < 0.01);
+}
+
+// The room through a camera whose principal point lies off the middle: its image, shifted.
+TEST_CASE("a principal point off the middle is found") {
+  constexpr int kRight = 4;
+  constexpr int kUp = 3;
+  PredictorRun run(default_config());
+  for (int step = 0; step < 120; ++step) {
+    const GrayImage centered = render_room(walk(step));
+    GrayImage image(centered.size());
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const int from_x = std::clamp(x - kRight, 0, kWidth - 1);
+        const int from_y = std::clamp(y + kUp, 0, kHeight - 1);
+        image[static_cast<size_t>(y * kWidth + x)] =
+            centered[static_cast<size_t>(from_y * kWidth + from_x)];
+      }
+    }
+    REQUIRE(run.show(image, step % 3 == 0) == UNISIM_PREDICTION_OK);
+  }
+  REQUIRE(run.table()->finish(run.table()) == UNISIM_PREDICTION_OK);
+  CHECK(run.info().center_x_px == Approx(kRight).margin(2.0));
+  CHECK(run.info().center_y_px == Approx(-kUp).margin(2.0));
 }
 
 TEST_CASE("pairs wait for the start and then give relative poses and depth in one unit") {

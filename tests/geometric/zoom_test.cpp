@@ -45,7 +45,9 @@ std::string remark(CameraPlace (*path)(int), double factor, int frames) {
 }  // namespace
 
 TEST_CASE("a zoom in is told with the frame near which it began") {
-  CHECK(has(remark(walk, 1.3, 12), "zoomed near frame 4"));
+  const std::string told = remark(walk, 1.3, 12);
+  INFO(told);
+  CHECK(has(told, "zoomed near frame 4"));
 }
 
 TEST_CASE("a zoom out is told") {

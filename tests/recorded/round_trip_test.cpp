@@ -144,6 +144,8 @@ TEST_CASE("the final figures of the predictor are kept") {
   CHECK(info.focal_px == 525.5);
   CHECK(info.focal_sigma_px == 1.0 / 3.0);
   CHECK(info.radial_k1 == -0.033);
+  CHECK(info.center_x_px == 2.5);
+  CHECK(info.center_y_px == -1.25);
   CHECK(info.initialised == 1);
   CHECK(info.restarts == 2);
   CHECK(info.rotation_only == 3);

@@ -288,9 +288,11 @@ void Cloud::for_each_point(const PlacedView& placed, const CloudCamera& camera, 
   const unisim_sim3& T_world_kf = placed.pose->T_world_kf;
   const bool shared = options_.one_camera && camera.focal_px > 0.0;
   const double wider = shared ? placed.focal_px / camera.focal_px : 1.0;
+  const double right = shared ? camera.center_x_px / camera.focal_px : 0.0;
+  const double down = shared ? camera.center_y_px / camera.focal_px : 0.0;
   for (const Point& point : *placed.points) {
-    const double x = static_cast<double>(point.x) * wider;
-    const double y = static_cast<double>(point.y) * wider;
+    const double x = static_cast<double>(point.x) * wider - right;
+    const double y = static_cast<double>(point.y) * wider - down;
     const double z = static_cast<double>(point.depth) * placed.scale;
     const double side = (1.0 + camera.radial_k1 * (x * x + y * y)) * z;
     std::array<double, 3> world = rotate(T_world_kf.q, {x * side, y * side, z});

@@ -50,8 +50,10 @@ constexpr double kGeometricConfidence = 0.2;
 
 /// The camera as the predictor knows it at the end of a run.
 struct CloudCamera {
-  double radial_k1 = 0.0;  ///< 0: no distortion
-  double focal_px = 0.0;   ///< 0: not known
+  double radial_k1 = 0.0;    ///< 0: no distortion
+  double focal_px = 0.0;     ///< 0: not known
+  double center_x_px = 0.0;  ///< principal point, from the middle of the image
+  double center_y_px = 0.0;
 };
 
 /// Gathers views while the run goes on. For each keyframe it takes colours on a coarse grid and the

@@ -93,7 +93,9 @@ CloudOptions cloud_options(unisim_predictor* predictor) {
 void write_map(const Run& run, const Cloud& cloud, OutputFolder* folder) {
   folder->write("map.ply", [&](const std::filesystem::path& path) {
     const unisim_predictor_info& predictor = run.result.predictor;
-    cloud.write(path, run.data, {predictor.radial_k1, predictor.focal_px});
+    cloud.write(
+        path, run.data,
+        {predictor.radial_k1, predictor.focal_px, predictor.center_x_px, predictor.center_y_px});
   });
 }
 

@@ -159,6 +159,11 @@ std::string score_line(const Run& run) {
   return line + "\n";
 }
 
+/// From the middle of the image to the right and down.
+Json principal_json(const unisim_predictor_info& predictor) {
+  return Json::array({predictor.center_x_px, predictor.center_y_px});
+}
+
 }  // namespace
 
 std::string keyframe_choice(const Options& options) {
@@ -218,6 +223,7 @@ Json summary_json(const Run& run) {
           {"pairs_refused", info.pairs_refused},
           {"submaps_refused", info.submaps_refused},
           {"focal_px", focal > 0.0 ? Json(focal) : Json(nullptr)},
+          {"principal_offset_px", principal_json(run.result.predictor)},
           {"lanes", lanes_json(run.result.lanes)},
           {"memory", memory_json(run)},
           {"timing_ms", timing_json(run.result.times)},

@@ -26,7 +26,8 @@ bool finite(const BundleIntrinsics& in) {
   return std::isfinite(in.log_focal) && std::isfinite(in.k1) && std::isfinite(in.cx) &&
          std::isfinite(in.cy) && std::isfinite(in.log_focal_mean) &&
          std::isfinite(in.log_focal_sigma) && std::isfinite(in.k1_mean) &&
-         std::isfinite(in.k1_sigma);
+         std::isfinite(in.k1_sigma) && std::isfinite(in.cx_mean) && std::isfinite(in.cy_mean) &&
+         std::isfinite(in.center_sigma_px);
 }
 
 bool valid(const BundleProblem& problem, const BundleOptions& options) {

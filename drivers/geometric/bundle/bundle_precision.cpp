@@ -98,7 +98,7 @@ BundlePrecision BundleAdjuster::precision(const BundleProblem& problem,
     if (map.degenerate()) return out;
     out.center_sigma = std::sqrt(center_variance(map)) * out.residual_sigma / out.median_depth;
   }
-  const Eigen::Matrix2d covariance = system_->intrinsics_covariance();
+  const Eigen::Matrix4d covariance = system_->intrinsics_covariance();
   out.log_focal_sigma = std::sqrt(covariance(0, 0)) * out.residual_sigma;
   out.k1_sigma = std::sqrt(covariance(1, 1)) * out.residual_sigma;
   out.valid = std::isfinite(out.center_sigma) && std::isfinite(out.log_focal_sigma) &&

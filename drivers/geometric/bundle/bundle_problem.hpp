@@ -45,14 +45,18 @@ struct BundleObservation {
 struct BundleIntrinsics {
   double log_focal = 0.0;
   double k1 = 0.0;
-  double cx = 0.0;  ///< always held
-  double cy = 0.0;  ///< always held
+  double cx = 0.0;  ///< principal point, pixels
+  double cy = 0.0;
   bool free_focal = false;
   bool free_k1 = false;
+  bool free_center = false;  ///< the principal point
   double log_focal_mean = 0.0;
   double log_focal_sigma = 0.0;
   double k1_mean = 0.0;
   double k1_sigma = 0.0;
+  double cx_mean = 0.0;
+  double cy_mean = 0.0;
+  double center_sigma_px = 0.0;  ///< of each of cx and cy
 
   CameraModel model() const;                 ///< camera with these values
   void set_model(const CameraModel& model);  ///< takes focal, k1 and centre; flags and priors stay

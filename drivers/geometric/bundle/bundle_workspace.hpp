@@ -13,8 +13,7 @@ namespace unisim::geometric {
 struct BundleAdjuster::Workspace {
   std::vector<CameraPose> poses;
   std::vector<Eigen::Vector3d> positions;
-  double log_focal = 0.0;
-  double k1 = 0.0;
+  BundleIntrinsics intrinsics;
   std::vector<double> norms;
   std::vector<double> depths;
   std::vector<double> solution;
@@ -35,8 +34,7 @@ struct BundleAdjuster::Workspace {
     for (int i = 0; i < problem.point_count(); ++i) {
       positions[static_cast<std::size_t>(i)] = problem.point(i).position;
     }
-    log_focal = problem.intrinsics.log_focal;
-    k1 = problem.intrinsics.k1;
+    intrinsics = problem.intrinsics;
   }
 
   void restore(BundleProblem* problem) const {
@@ -46,8 +44,7 @@ struct BundleAdjuster::Workspace {
     for (int i = 0; i < problem->point_count(); ++i) {
       problem->point(i).position = positions[static_cast<std::size_t>(i)];
     }
-    problem->intrinsics.log_focal = log_focal;
-    problem->intrinsics.k1 = k1;
+    problem->intrinsics = intrinsics;
   }
 
   std::size_t memory_bytes() const {

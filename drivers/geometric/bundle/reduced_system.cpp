@@ -17,12 +17,14 @@ constexpr double kPointFloor = 1e-12;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+double prior_information(double sigma) { return sigma > 0.0 ? 1.0 / (sigma * sigma) : 0.0; }
+
 }  // namespace
 
 struct ReducedSystem::PointSums {
   Eigen::Matrix3d V = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();  // minus gradient
-  Eigen::Matrix<double, 2, 3> WF = Eigen::Matrix<double, 2, 3>::Zero();
+  Eigen::Matrix<double, kIntrinsics, 3> WF = Eigen::Matrix<double, kIntrinsics, 3>::Zero();
 };
 
 ReducedSystem::ReducedSystem(const BundleCapacity& capacity) : matrix_(capacity.free_cameras + 1) {
@@ -36,8 +38,9 @@ ReducedSystem::ReducedSystem(const BundleCapacity& capacity) : matrix_(capacity.
 }
 
 bool ReducedSystem::layout(const BundleProblem& problem) {
-  free_focal_ = problem.intrinsics.free_focal;
-  free_k1_ = problem.intrinsics.free_k1;
+  free_[0] = problem.intrinsics.free_focal;
+  free_[1] = problem.intrinsics.free_k1;
+  free_[2] = free_[3] = problem.intrinsics.free_center;
   camera_slots_ = 0;
   int held = 0;
   for (int i = 0; i < problem.camera_count(); ++i) held += problem.camera(i).fixed ? 1 : 0;
@@ -139,7 +142,7 @@ void ReducedSystem::add_observation(const BundleProblem& problem, const BundleOp
   if (has_intrinsics()) {
     F_.noalias() +=
         J.intrinsics0 * J.intrinsics0.transpose() + J.intrinsics1 * J.intrinsics1.transpose();
-    Eigen::Map<Eigen::Vector2d>(&gradient_[at(6 * camera_slots_)]) -=
+    Eigen::Map<Eigen::Vector4d>(&gradient_[at(6 * camera_slots_)]) -=
         r.x() * J.intrinsics0 + r.y() * J.intrinsics1;
     sums->WF.noalias() +=
         J.intrinsics0 * J.point0.transpose() + J.intrinsics1 * J.point1.transpose();
@@ -201,8 +204,9 @@ void ReducedSystem::linearize_point(const BundleProblem& problem, const BundleOp
     Coupling& coupling = couplings_[at(coupling_count_++)];
     coupling.slot = camera_slots_;
     coupling.Y.setZero();
-    if (free_focal_) coupling.Y.row(0) = sums.WF.row(0);
-    if (free_k1_) coupling.Y.row(1) = sums.WF.row(1);
+    for (int row = 0; row < kIntrinsics; ++row) {
+      if (free_[row]) coupling.Y.row(row) = sums.WF.row(row);
+    }
   }
   factor.count = coupling_count_ - factor.first;
   eliminate(sums, lambda, &factor);
@@ -219,19 +223,19 @@ void ReducedSystem::finish_assembly(const BundleProblem& problem, double lambda)
   }
   if (!has_intrinsics()) return;
   const BundleIntrinsics& in = problem.intrinsics;
-  Eigen::Map<Eigen::Vector2d> gradient(&gradient_[at(6 * camera_slots_)]);
-  const Eigen::Vector2d information(
-      in.log_focal_sigma > 0.0 ? 1.0 / (in.log_focal_sigma * in.log_focal_sigma) : 0.0,
-      in.k1_sigma > 0.0 ? 1.0 / (in.k1_sigma * in.k1_sigma) : 0.0);
-  gradient.x() -= information.x() * (in.log_focal - in.log_focal_mean);
-  gradient.y() -= information.y() * (in.k1 - in.k1_mean);
+  Eigen::Map<Eigen::Vector4d> gradient(&gradient_[at(6 * camera_slots_)]);
+  const Eigen::Vector4d off(in.log_focal - in.log_focal_mean, in.k1 - in.k1_mean,
+                            in.cx - in.cx_mean, in.cy - in.cy_mean);
+  const Eigen::Vector4d information(
+      prior_information(in.log_focal_sigma), prior_information(in.k1_sigma),
+      prior_information(in.center_sigma_px), prior_information(in.center_sigma_px));
+  gradient -= information.cwiseProduct(off);
   F_.diagonal() += information;
   TileCholesky::Block corner = matrix_.block(camera_slots_, camera_slots_);
-  corner.topLeftCorner<2, 2>() += F_;
-  corner.diagonal().head<2>() += lambda * F_.diagonal();
-  const bool is_free[2] = {free_focal_, free_k1_};
+  corner.topLeftCorner<kIntrinsics, kIntrinsics>() += F_;
+  corner.diagonal().head<kIntrinsics>() += lambda * F_.diagonal();
   for (int row = 0; row < 6; ++row) {
-    const bool used = row < 2 && is_free[row] && F_(row, row) > 0.0;
+    const bool used = row < kIntrinsics && free_[row] && F_(row, row) > 0.0;
     if (used) {
       for (int i = 0; i < camera_slots_; ++i) {
         matrix_.block(camera_slots_, i).row(row) += cameras_[at(i)].UF.row(row);
@@ -286,21 +290,23 @@ bool ReducedSystem::step(BundleProblem* problem) {
     b.x() = (b.x() - L(1, 0) * b.y() - L(2, 0) * b.z()) * L(0, 0);
     problem->point(p).position += b;
   }
-  if (free_focal_) problem->intrinsics.log_focal += intrinsics[0];
-  if (free_k1_) problem->intrinsics.k1 += intrinsics[1];
+  BundleIntrinsics& in = problem->intrinsics;
+  if (free_[0]) in.log_focal += intrinsics[0];
+  if (free_[1]) in.k1 += intrinsics[1];
+  if (free_[2]) in.cx += intrinsics[2];
+  if (free_[3]) in.cy += intrinsics[3];
   return true;
 }
 
-Eigen::Matrix2d ReducedSystem::intrinsics_covariance() const {
-  if (!has_intrinsics()) return Eigen::Matrix2d::Zero();
+Eigen::Matrix4d ReducedSystem::intrinsics_covariance() const {
+  if (!has_intrinsics()) return Eigen::Matrix4d::Zero();
   // The intrinsics come last, so their corner of L is the factor of their marginal information.
-  const Eigen::Matrix2d L = matrix_.diagonal_block(camera_slots_).topLeftCorner<2, 2>();
-  Eigen::Matrix2d inverse;
-  inverse << 1.0 / L(0, 0), 0.0, -L(1, 0) / (L(0, 0) * L(1, 1)), 1.0 / L(1, 1);
-  Eigen::Matrix2d covariance = inverse.transpose() * inverse;
-  const bool is_free[2] = {free_focal_, free_k1_};
-  for (int i = 0; i < 2; ++i) {
-    if (is_free[i]) continue;
+  const Eigen::Matrix4d L = matrix_.diagonal_block(camera_slots_).topLeftCorner<4, 4>();
+  const Eigen::Matrix4d inverse =
+      L.triangularView<Eigen::Lower>().solve(Eigen::Matrix4d::Identity());
+  Eigen::Matrix4d covariance = inverse.transpose() * inverse;
+  for (int i = 0; i < kIntrinsics; ++i) {
+    if (free_[i]) continue;
     covariance.row(i).setZero();
     covariance.col(i).setZero();
   }

@@ -17,7 +17,8 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// Schur complement of the points of a BundleProblem. Unknowns stand in slots of 6: one per free
-/// camera in the order they were added, then one for the intrinsics (log f, k1, four idle rows).
+/// camera in the order they were added, then one for the intrinsics (log f, k1, cx, cy, two idle
+/// rows).
 /// The elimination order of the Cholesky factorisation is the slot order, so cameras should be
 /// added in time order.
 class ReducedSystem {
@@ -48,12 +49,14 @@ class ReducedSystem {
   /// Factor of the last factorize(); slots as above, intrinsics last.
   const TileCholesky& factor() const { return matrix_; }
   int camera_slots() const { return camera_slots_; }
-  /// Covariance of (log f, k1) after the last factorize(); zero for what is held.
-  Eigen::Matrix2d intrinsics_covariance() const;
+  /// Covariance of (log f, k1, cx, cy) after the last factorize(); zero for what is held.
+  Eigen::Matrix4d intrinsics_covariance() const;
 
   std::size_t memory_bytes() const;
 
  private:
+  static constexpr int kIntrinsics = 4;
+
   // One row of eliminated coupling: W L^-T of a slot, with V = L L^T of its point.
   struct Coupling {
     Eigen::Matrix<double, 6, 3> Y;
@@ -62,7 +65,7 @@ class ReducedSystem {
   // Diagonal block of one camera before elimination.
   struct CameraBlock {
     Matrix6d U;
-    Eigen::Matrix<double, 2, 6> UF;  // intrinsics by camera
+    Eigen::Matrix<double, kIntrinsics, 6> UF;  // intrinsics by camera
   };
   // One point after elimination.
   struct PointFactor {
@@ -84,16 +87,15 @@ class ReducedSystem {
   void subtract_couplings(const PointFactor& factor);
   void finish_assembly(const BundleProblem& problem, double lambda);
 
-  bool has_intrinsics() const { return free_focal_ || free_k1_; }
+  bool has_intrinsics() const { return free_[0] || free_[1] || free_[2]; }
   int slot_count() const { return camera_slots_ + (has_intrinsics() ? 1 : 0); }
 
   TileCholesky matrix_;
   int camera_slots_ = 0;
-  bool free_focal_ = false;
-  bool free_k1_ = false;
+  bool free_[kIntrinsics] = {};  // log f, k1, cx, cy
   int used_ = 0;
   ResidualIntrinsics constants_ = {};
-  Eigen::Matrix2d F_ = Eigen::Matrix2d::Zero();  // intrinsics block before elimination
+  Eigen::Matrix4d F_ = Eigen::Matrix4d::Zero();  // intrinsics block before elimination
   std::vector<std::int32_t> slots_;              // per camera
   std::vector<std::uint8_t> active_;             // per point
   std::vector<CameraBlock> cameras_;             // per camera slot

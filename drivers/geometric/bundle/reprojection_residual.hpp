@@ -17,12 +17,13 @@ struct ResidualIntrinsics {
 };
 
 /// Rows of r = w (f (x/z, y/z) - d (1 + k1 |d|^2 / f^2)), d = pixel - (cx, cy), and of its
-/// derivatives. Camera tangent: (translation 3, rotation 3) of retract(); intrinsics: (log f, k1).
+/// derivatives. Camera tangent: (translation 3, rotation 3) of retract(); intrinsics: (log f,
+/// k1, cx, cy).
 struct ReprojectionResidual {
   Eigen::Vector2d r;
   Eigen::Matrix<double, 6, 1> camera0, camera1;  ///< d r0, d r1 by the camera
   Eigen::Vector3d point0, point1;                ///< by the point in the world
-  Eigen::Vector2d intrinsics0, intrinsics1;
+  Eigen::Vector4d intrinsics0, intrinsics1;
 };
 
 /// r alone, at camera coordinates y with y.z > 0. @param weight  inverse standard deviation
@@ -55,8 +56,12 @@ inline void reprojection_jacobian(const ResidualIntrinsics& in, const Eigen::Mat
   const double r2 = (dx * dx + dy * dy) * in.inverse_focal2;
   const double w = factor * in.inverse_scale;
   const double bend = 2.0 * in.k1 * r2;
-  out->intrinsics0 << wf * mx + w * bend * dx, -w * dx * r2;
-  out->intrinsics1 << wf * my + w * bend * dy, -w * dy * r2;
+  const double stretch = w * (1.0 + in.k1 * r2);
+  const double twist = 2.0 * w * in.k1 * in.inverse_focal2;
+  out->intrinsics0 << wf * mx + w * bend * dx, -w * dx * r2, stretch + twist * dx * dx,
+      twist * dx * dy;
+  out->intrinsics1 << wf * my + w * bend * dy, -w * dy * r2, twist * dx * dy,
+      stretch + twist * dy * dy;
 }
 
 }  // namespace unisim::geometric

@@ -41,6 +41,10 @@ double intrinsics_cost(const BundleIntrinsics& in) {
   double cost = 0.0;
   if (in.free_focal) cost += gaussian_cost(in.log_focal, in.log_focal_mean, in.log_focal_sigma);
   if (in.free_k1) cost += gaussian_cost(in.k1, in.k1_mean, in.k1_sigma);
+  if (in.free_center) {
+    cost += gaussian_cost(in.cx, in.cx_mean, in.center_sigma_px);
+    cost += gaussian_cost(in.cy, in.cy_mean, in.center_sigma_px);
+  }
   return cost;
 }
 

@@ -40,6 +40,7 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
     : state_(config, map_capacity(config)),
       patches_(config.max_landmarks),
       revive_(&atlas_),
+      remeasure_(&atlas_),
       places_(state_.config, static_cast<size_t>(observations_per_keyframe(config)), &atlas_),
       window_(window_capacity(config), map_capacity(config)),
       background_(whole_capacity(config), map_capacity(config), config.background != 0) {
@@ -49,7 +50,9 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
       1,
       static_cast<int>(kSpacing * std::sqrt(static_cast<double>(size.area()) / config.max_tracks)));
   const bool lens_known = config.distortion_model != UNISIM_DISTORTION_UNKNOWN;
-  state_.intrinsics = Intrinsics::start(size, config.focal_px, lens_known);
+  const bool center_given = config.principal_x_px != 0 || config.principal_y_px != 0;
+  state_.intrinsics =
+      Intrinsics::start(size, config.focal_px, lens_known, lens_known || center_given);
   const auto tracks = static_cast<size_t>(observations_per_keyframe(config));
   state_.tracks.reserve(tracks);
   places_.open(size);
@@ -60,6 +63,7 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
   zoom_.reserve(tracks);
   atlas_.open(size);
   revive_.reserve(static_cast<size_t>(config.max_landmarks));
+  remeasure_.reserve(tracks);
   joined_ids_.reserve(static_cast<size_t>(config.max_keyframes));
   window_ids_.reserve(static_cast<size_t>(config.max_keyframes));
 }
@@ -177,6 +181,12 @@ void Mapper::take_pose(int32_t id, const FramePose& first) {
   ++state_.posed;
   if (lost_in_row_ > 0) recover(id - 1, found.pose);
   lost_in_row_ = 0;
+  // A zoom changes the size of what patches show.
+  if (!zoom_.suspects() &&
+      remeasure_.run(patches_, front_end_.current(), newest.pose, &state_) > 0) {
+    found = poses_.refine(state_, newest.pose);
+    newest.pose = found.pose;
+  }
   observe_tracks(0);
   mark_outliers(&state_, id, 2 * kInlierGate);
   const size_t before = state_.tracks.size();
@@ -358,7 +368,8 @@ bool Mapper::finish() {
 int64_t Mapper::bytes() const {
   const auto tracks = static_cast<int64_t>(state_.tracks.point.capacity());
   return state_.map.bytes() + patches_.bytes() + atlas_.bytes() + places_.bytes() +
-         revive_.bytes() + window_.bytes() + background_.bytes() + front_end_.bytes() +
+         revive_.bytes() + remeasure_.bytes() + window_.bytes() + background_.bytes() +
+         front_end_.bytes() +
          tracks * static_cast<int64_t>(3 * sizeof(cv::Point2f) + sizeof(int32_t) + 1);
 }
 

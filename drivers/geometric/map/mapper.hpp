@@ -11,6 +11,7 @@
 #include "drivers/geometric/map/keyframe_pose.hpp"
 #include "drivers/geometric/map/landmark_growth.hpp"
 #include "drivers/geometric/map/map_adjustment.hpp"
+#include "drivers/geometric/map/remeasure.hpp"
 #include "drivers/geometric/map/revive.hpp"
 #include "drivers/geometric/map/state.hpp"
 #include "drivers/geometric/places/locator.hpp"
@@ -102,6 +103,7 @@ class Mapper {
   PatchStore patches_;
   PatchAtlas atlas_;
   Revive revive_;
+  Remeasure remeasure_;
   Places places_;
   PlaceFound found_;
   Locator locator_;

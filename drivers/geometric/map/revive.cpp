@@ -3,10 +3,10 @@
 #include "drivers/geometric/map/revive.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "drivers/geometric/image/frame_tracker.hpp"
+#include "drivers/geometric/map/view_difference.hpp"
 
 namespace unisim::geometric {
 
@@ -14,30 +14,10 @@ namespace {
 constexpr int kMinSupport = 3;
 constexpr float kSearchMargin = 12.0F;
 constexpr float kAcceptMargin = 10.0F;
-constexpr double kMaxLogScale = 0.35;  // between the depths of patch and frame
-constexpr double kMaxViewAngle = 0.6;  // rad
-constexpr double kViewAngleUnit = 0.5;
-constexpr double kMaxRoll = 0.35;      // rad
 constexpr double kMaxDistance = 15.0;  // pixels at the reference diagonal
 constexpr double kOccupied = 0.5;      // of the feature spacing
 constexpr double kCrowded = 0.35;
 constexpr double kNewViewCost = 0.5;  // a patch is kept when no kept one is nearer in view
-constexpr double kNoView = 1e9;
-
-/// Difference of two views of a point: 0 the same, kNoView beyond what a patch can bridge.
-double view_difference(const CameraPose& a, const CameraPose& b, const Eigen::Vector3d& point) {
-  const double depth_a = a.apply(point).z();
-  const double depth_b = b.apply(point).z();
-  if (!(depth_a > kMinDepth) || !(depth_b > kMinDepth)) return kNoView;
-  const double scale = std::abs(std::log(depth_a / depth_b));
-  const double cosine = (point - a.center()).normalized().dot((point - b.center()).normalized());
-  const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
-  const Eigen::Matrix3d turn = b.R * a.R.transpose();
-  const double roll = std::abs(std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1)));
-  if (!(scale < kMaxLogScale && angle < kMaxViewAngle && roll < kMaxRoll)) return kNoView;
-  return scale / kMaxLogScale + angle / kViewAngleUnit + roll / kMaxRoll;
-}
-
 }  // namespace
 
 void Revive::reserve(size_t landmarks) { candidates_.reserve(landmarks); }

@@ -9,21 +9,29 @@
 
 namespace unisim::geometric {
 
-/// Focal length and radial term: start values, priors and the rule by which they are freed.
+/// Focal length, radial term and principal point: start values, priors and the rule by which they
+/// are freed.
 ///
 /// The focal length starts at 0.85 of the longer side. The radial term stays 0 until the camera has
-/// turned enough: in straight driving it cannot be told from the path and would bend it.
+/// turned enough: in straight driving it cannot be told from the path and would bend it. So does
+/// the principal point stay in the middle, which takes more: a point off the middle looks like a
+/// camera that is turned a little.
 struct Intrinsics {
   CameraModel camera;
   bool focal_known = false;
-  bool k1_known = false;  ///< the images come from an ideal camera
+  bool k1_known = false;      ///< the images come from an ideal camera
+  bool center_known = false;  ///< the principal point is the middle
   double start_focal = 0;
+  cv::Point2d middle;          ///< of the image, pixels
+  double center_sigma_px = 0;  ///< of the prior on the principal point
   double turned_rad = 0;       ///< largest rotation seen within a segment
   double log_focal_sigma = 0;  ///< from the last adjustment of the whole state, 0: not known
 
   /// @param focal_px known focal length or 0
-  static Intrinsics start(const cv::Size& size, double focal_px, bool k1_known = false);
+  static Intrinsics start(const cv::Size& size, double focal_px, bool k1_known = false,
+                          bool center_known = false);
   bool k1_observable() const;
+  bool center_observable() const;
   /// Notes a camera turned by `angle_rad` against the segment's start.
   void note_rotation(double angle_rad);
   /// Sets values, freedoms and priors of a problem.

@@ -24,6 +24,8 @@ class ZoomWatch {
   bool see_keyframe(const State& state, int32_t id, int64_t frame);
   /// Frame of the first keyframe of the zoom.
   int64_t begin() const { return begin_; }
+  /// The keyframe seen last looks zoomed, which alone proves nothing.
+  bool suspects() const { return keyframes_ > 0; }
 
  private:
   bool collect(const State& state, int32_t id);
