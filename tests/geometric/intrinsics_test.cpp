@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "drivers/geometric/start/intrinsics.hpp"
 
+#include <cstring>
+#include <vector>
+
+#include "drivers/common/archive.hpp"
 #include "tests/support/catch.hpp"
 
 using unisim::geometric::BundleIntrinsics;
@@ -79,4 +83,32 @@ TEST_CASE("a principal point that was given is held") {
   intrinsics.note_rotation(1.0);
   intrinsics.give(false, &problem);
   CHECK_FALSE(problem.free_center);
+}
+
+TEST_CASE("a long focal length that was given is loaded again") {
+  using unisim::drivers::Archive;
+  const cv::Size size(640, 480);
+  Intrinsics saved = Intrinsics::start(size, 5000.0);  // 7.8 image widths: no estimate goes there
+  std::vector<unsigned char> bytes;
+  const auto write = [](void* context, const void* from, size_t count) -> int32_t {
+    const auto* first = static_cast<const unsigned char*>(from);
+    auto* to = static_cast<std::vector<unsigned char>*>(context);
+    to->insert(to->end(), first, first + count);
+    return 1;
+  };
+  Archive out(static_cast<Archive::Write>(write), &bytes);
+  saved.archive(&out, size);
+
+  const auto read = [](void* context, void* to, size_t count) -> int32_t {
+    auto* from = static_cast<std::vector<unsigned char>*>(context);
+    if (from->size() < count) return 0;
+    std::memcpy(to, from->data(), count);
+    from->erase(from->begin(), from->begin() + static_cast<std::ptrdiff_t>(count));
+    return 1;
+  };
+  Archive in(static_cast<Archive::Read>(read), &bytes);
+  Intrinsics loaded = Intrinsics::start(size, 5000.0);
+  loaded.archive(&in, size);
+  CHECK(bytes.empty());
+  CHECK(loaded.camera.focal_px == 5000.0);
 }

@@ -52,7 +52,10 @@ class RecordedRun {
   TempFolder folder_;
 };
 
-std::string ply_head(const std::string& ply) { return ply.substr(0, ply.find("end_header")); }
+double vertices(const std::string& ply) {
+  const std::string before = "element vertex ";
+  return std::stod(ply.substr(ply.find(before) + before.size()));
+}
 
 }  // namespace
 
@@ -66,6 +69,7 @@ TEST_CASE("a recorded run is repeated with its images, without them and with hal
     run.check_same_poses();
     CHECK(run.first("map.ply") == run.again("map.ply"));
   }
+  // Colours say where a surface ends: without them a view is filled in otherwise.
   SECTION("with none the map has no colours") {
     fs::remove_all(run.sequence.path() + "/rgb");
     const ProgramResult result = run.repeat();
@@ -73,7 +77,7 @@ TEST_CASE("a recorded run is repeated with its images, without them and with hal
     CHECK(has(result.err, "cannot be read"));
     CHECK(has(result.err, "more keyframes without an image"));
     CHECK(lines_in(result.err) == 6);
-    CHECK(ply_head(run.first("map.ply")) == ply_head(run.again("map.ply")));
+    CHECK(vertices(run.again("map.ply")) > 0.7 * vertices(run.first("map.ply")));
     CHECK(run.summary("again").at("frames") == frames);
     CHECK(run.summary("again").at("frames_bad") == 0);
   }

@@ -80,8 +80,12 @@ void Intrinsics::archive(drivers::Archive* io, const cv::Size& size) {
   constexpr double kMostK1 = 1e3;
   io->part("camera");
   double focal = camera.focal_px;
-  io->number(focal, kMinFocal * size.width, kMaxFocal * size.width);
-  if (!focal_known) camera.focal_px = focal;
+  if (focal_known) {
+    io->number(focal);  // given, and any: what start() was told stays
+  } else {
+    io->number(focal, kMinFocal * size.width, kMaxFocal * size.width);
+    camera.focal_px = focal;
+  }
   io->number(camera.k1, -kMostK1, kMostK1);
   const double reach = kMostCenterShift * std::hypot(size.width, size.height);
   double cx = camera.cx;
