@@ -39,6 +39,22 @@ extern "C" {
 #define UNISIM_PREDICTION_FAILED \
   3 /**< the predictor is of no more use; message() says what to do */
 
+/** Why tracking has a hard time, or the image of a frame is of little use. */
+#define UNISIM_REASON_NONE 0
+#define UNISIM_REASON_COVERED 1  /**< dark and nothing to be seen: the lens is covered, no light */
+#define UNISIM_REASON_EXPOSURE 2 /**< most pixels as dark or as bright as can be */
+#define UNISIM_REASON_BLUR 3     /**< much softer than the frames before: moved, out of focus */
+#define UNISIM_REASON_TEXTURE                                                                      \
+  4                               /**< too little to follow: a bare wall, or what was seen is gone \
+                                   */
+#define UNISIM_REASON_DUPLICATE 5 /**< the same pixels as the frame before: nothing new */
+#define UNISIM_REASON_TIME_GAP 6  /**< much later after the frame before than usual */
+#define UNISIM_REASON_START 7     /**< no start found yet; a predictor does not give it */
+#define UNISIM_REASON_PREDICTION                                                             \
+  8                           /**< images look well, but the prediction was refused: see the \
+                                 messages; a predictor does not give it */
+#define UNISIM_REASON_COUNT 9 /**< one more than the last */
+
 /** What a frame says about the camera's motion. */
 typedef struct unisim_motion {
   double flow;    /**< median displacement since the last keyframe over the image diagonal; < 0: not
@@ -46,6 +62,8 @@ typedef struct unisim_motion {
   double tracked; /**< share of the last keyframe's features still seen, 0..1; < 0: not measured */
   int32_t
       keyframe_advice; /**< 1: this frame must be a keyframe, -1: must not, 0: the caller decides */
+  int32_t reason;      /**< UNISIM_REASON_* of this frame; 0 where nothing is wrong, and from
+                          predictors that do not look */
 } unisim_motion;
 
 /** Two-view prediction of keyframes i, j. Unit of length: the predictor's choice for each call. */

@@ -34,7 +34,7 @@ void FrontEnd::open(const cv::Size& size, int max_tracks, int spacing, const uni
   scratch_.reserve(count);
 }
 
-void FrontEnd::see(const unisim_image& image, Tracks* tracks) {
+void FrontEnd::see(const unisim_image& image, int64_t timestamp_ns, Tracks* tracks) {
   int next = 0;
   while (next == last_ || next == keyframe_) ++next;
   PreparedImage& prepared = images_[static_cast<size_t>(next)];
@@ -45,7 +45,10 @@ void FrontEnd::see(const unisim_image& image, Tracks* tracks) {
     jumped_ = jump_.see(current(), prepared, before_, tracker_.patch_error());
   }
   last_ = next;
+  const bool followed = !before_.empty();
   drop_hidden(tracks);
+  reason_ =
+      quality_.see({measure_image(preparation_.gray()), timestamp_ns, tracks->size(), followed});
 }
 
 void FrontEnd::drop_hidden(Tracks* tracks) const {

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "drivers/geometric/image/detector.hpp"
+#include "drivers/geometric/image/frame_quality.hpp"
 #include "drivers/geometric/image/frame_tracker.hpp"
 #include "drivers/geometric/image/keyframe_retrack.hpp"
 #include "drivers/geometric/image/local_contrast.hpp"
@@ -26,7 +27,9 @@ class FrontEnd {
   /// @param look where it is 0 nothing is followed; data NULL: everything may be
   void open(const cv::Size& size, int max_tracks, int spacing, const unisim_image& look);
   /// Takes the next frame and moves the tracks into it.
-  void see(const unisim_image& image, Tracks* tracks);
+  /// @param timestamp_ns of the frame
+  void see(const unisim_image& image, int64_t timestamp_ns, Tracks* tracks);
+  int32_t reason() const { return reason_; }  ///< UNISIM_REASON_* of the frame seen last
   TrackMotion motion(const Tracks& tracks);
   /// The frame seen last is the one before at another scale.
   bool jumped() const { return jumped_; }
@@ -63,6 +66,8 @@ class FrontEnd {
   LocalContrast contrast_;
   FrameTracker tracker_;
   ZoomJump jump_;
+  FrameQuality quality_;
+  int32_t reason_ = 0;
   bool jumped_ = false;
   std::vector<cv::Point2f> before_;  // the tracks in the frame before
   KeyframeRetrack retrack_;

@@ -79,7 +79,7 @@ bool accept_image(GeometricPredictor* me, const unisim_image& image) {
 namespace {
 
 int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motion* motion) {
-  *motion = {-1.0, -1.0, 0};
+  *motion = {-1.0, -1.0, 0, 0};
   return guarded(predictor, [&](GeometricPredictor* me) {
     if (!fits_mask(me, frame->image)) return UNISIM_PREDICTION_FAILED;
     if (!accept_image(me, frame->image)) {
@@ -93,6 +93,7 @@ int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motio
     me->mapper->see(seen);
     const TrackMotion moved = me->mapper->motion();
     motion->tracked = moved.kept;
+    motion->reason = me->mapper->frame_reason();
     if (moved.displacement_px < 0) return UNISIM_PREDICTION_OK;
     motion->flow = moved.displacement_px / std::hypot(me->size.width, me->size.height);
     if (motion->flow < kStaticFlow && moved.kept > kStaticKept) ++me->static_frames;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The small messages: pose, keyframe, correction, status.
+#include <cstddef>
 #include <cstring>
 
 #include "drivers/lcm/publisher_state.hpp"
@@ -86,8 +87,11 @@ int unisim_lcm_publish_correction(unisim_lcm_publisher* publisher,
              unisim_correction_t_encode);
 }
 
+/// Of a program built before there were reasons.
+constexpr size_t kFirstStatusSize = offsetof(unisim_lcm_status, reason);
+
 int unisim_lcm_publish_status(unisim_lcm_publisher* publisher, const unisim_lcm_status* status) {
-  if (publisher == nullptr || status == nullptr || status->struct_size < sizeof *status ||
+  if (publisher == nullptr || status == nullptr || status->struct_size < kFirstStatusSize ||
       !good_stages(*status)) {
     return UNISIM_LCM_REFUSED;
   }
@@ -100,6 +104,7 @@ int unisim_lcm_publish_status(unisim_lcm_publisher* publisher, const unisim_lcm_
   unisim_status_t out{};
   out.utime = microseconds(status->timestamp_ns);
   out.state = status->state;
+  out.reason = status->struct_size >= sizeof *status ? status->reason : UNISIM_STATUS_T_REASON_NONE;
   out.unit = publisher->unit;
   out.confidence = status->confidence;
   out.keyframe = status->keyframe_id;

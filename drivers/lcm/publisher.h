@@ -144,6 +144,8 @@ typedef struct unisim_lcm_status {
   int32_t lost_events;
   int32_t stage_count;            /**< 0..UNISIM_LCM_MAX_STAGES */
   const unisim_lcm_stage* stages; /**< stage_count, read during the call */
+  int32_t reason;   /**< UNISIM_REASON_* of predictor.h: why the state is what it is; 0: none */
+  int32_t reserved; /**< 0 */
 } unisim_lcm_status;
 
 /** UNISIM_STATUS; the unit and the messages dropped are added.

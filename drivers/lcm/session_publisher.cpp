@@ -162,8 +162,11 @@ void SessionPublisher::on_progress(const pipeline::Progress& progress) {
   int32_t first = 0;
   if (unisim_lcm_next_request(publisher_, &first) != 0) begin_trajectory(first);
   send_trajectory_chunk();
-  const bool changed =
-      progress.state != told_state_ || (live_.struct_size != 0 && live_.segment != told_segment_);
+  // Cameras that give each frame twice would have every frame told.
+  const bool other_reason =
+      progress.reason != told_reason_ && progress.reason != UNISIM_REASON_DUPLICATE;
+  const bool changed = progress.state != told_state_ || other_reason ||
+                       (live_.struct_size != 0 && live_.segment != told_segment_);
   if (changed || Clock::now() >= next_status_) send_status(progress);
 }
 
@@ -176,6 +179,7 @@ void SessionPublisher::send_status(const pipeline::Progress& progress) {
   unisim_lcm_status status{};
   status.struct_size = sizeof status;
   status.state = progress.state;
+  status.reason = progress.reason;
   status.timestamp_ns = progress.newest_ns;
   status.confidence = posed ? newest.confidence : 0;
   status.keyframe_id = posed ? newest.keyframe_id : -1;
@@ -193,6 +197,7 @@ void SessionPublisher::send_status(const pipeline::Progress& progress) {
   status.stages = stages_.data();
   unisim_lcm_publish_status(publisher_, &status);
   told_state_ = progress.state;
+  told_reason_ = progress.reason;
   told_segment_ = live_.struct_size != 0 ? live_.segment : -1;
   next_status_ = Clock::now() + kStatusPeriod;
 }

@@ -82,6 +82,7 @@ class SessionPublisher : public pipeline::Listener {
   std::vector<float> xyz_;
   std::vector<unisim_lcm_stage> stages_;
   int32_t told_state_ = -1;
+  int32_t told_reason_ = 0;
   int32_t told_segment_ = -1;
   Clock::time_point next_status_{};
 };

@@ -48,6 +48,9 @@ typedef struct unisim_live_pose {
   int32_t state;           /**< UNISIM_STATE_* */
   int32_t segment;         /**< poses of different segments have no common frame or scale; -1: none
                                 known */
+  int32_t reason;          /**< UNISIM_REASON_* of predictor.h, with the frame before this one;
+                                0: all was well */
+  int32_t reserved;        /**< 0 */
 } unisim_live_pose;
 
 /** What an optimisation did to the poses given out before it. */
@@ -71,6 +74,9 @@ typedef struct unisim_pipeline_status {
   int64_t frames_dropped; /**< late, or given up for newer ones */
   int32_t keyframes;
   int32_t submaps;
+  int32_t reason;   /**< UNISIM_REASON_* of predictor.h: why the state is what it is, or what is
+                         wrong with the newest frame; 0: all is well */
+  int32_t reserved; /**< 0 */
 } unisim_pipeline_status;
 
 /** Everything a run is started with. Fill with unisim_pipeline_config_init(), then edit. */
@@ -147,6 +153,11 @@ UNISIM_API const char* unisim_pipeline_message(const unisim_pipeline* pipeline);
  *  @param[out] status   filled as far as its struct_size reaches */
 UNISIM_API void unisim_pipeline_get_status(const unisim_pipeline* pipeline,
                                            unisim_pipeline_status* status);
+
+/** A reason in one or a few words.
+ *  @param reason UNISIM_REASON_* of predictor.h
+ *  @return static text, "" for none and for numbers that are none */
+UNISIM_API const char* unisim_reason_name(int32_t reason);
 
 /** The newest pose, as on_pose() told it: for hosts that would rather ask. From any thread but
  *  those of callbacks.

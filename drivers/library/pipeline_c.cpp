@@ -25,6 +25,7 @@
 #include "drivers/pipeline/pipeline.hpp"
 #include "drivers/pipeline/session_defaults.hpp"
 #include "drivers/pipeline/similarity.hpp"
+#include "drivers/pipeline/tracking_reason.hpp"
 
 namespace {
 
@@ -228,6 +229,7 @@ void unisim_pipeline::on_live_pose(const LivePose& pose) {
   told.T_world_cam = pose.T_world_cam;
   told.state = state;
   told.segment = newest.struct_size > 0 ? newest.segment : -1;
+  told.reason = status.reason;
   {
     const std::lock_guard<std::mutex> lock(mutex);
     live = told;
@@ -269,6 +271,7 @@ void unisim_pipeline::on_progress(const Progress& progress) {
     status.frames_dropped = progress.frames_dropped;
     status.keyframes = progress.keyframes;
     status.submaps = progress.submaps;
+    status.reason = progress.reason;
   }
   state = progress.state;
   if (changed && config.on_state != nullptr) config.on_state(state, config.user);
@@ -332,6 +335,8 @@ void unisim_pipeline_get_status(const unisim_pipeline* pipeline, unisim_pipeline
   const std::lock_guard<std::mutex> lock(pipeline->mutex);
   copy_out(pipeline->status, status);
 }
+
+const char* unisim_reason_name(int32_t reason) { return unisim::pipeline::reason_name(reason); }
 
 int unisim_pipeline_get_pose(const unisim_pipeline* pipeline, unisim_live_pose* pose) {
   const std::lock_guard<std::mutex> lock(pipeline->mutex);

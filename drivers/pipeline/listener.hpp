@@ -22,6 +22,7 @@ struct Progress {
   int64_t frames_located = 0;  ///< found in the map, with Options::localise
   int32_t submaps = 0;
   int32_t state = 0;             ///< UNISIM_STATE_*
+  int32_t reason = 0;            ///< UNISIM_REASON_*, see TrackingReason; 0: all is well
   int64_t newest_ns = 0;         ///< time stamp of the newest frame
   double metres_per_unit = 0.0;  ///< of the newest keyframe's segment; 0: relative
   double scale_sigma = 0.0;      ///< its relative standard deviation

@@ -14,6 +14,7 @@
 #include "drivers/pipeline/messages.hpp"
 #include "drivers/pipeline/pacer.hpp"
 #include "drivers/pipeline/similarity.hpp"
+#include "drivers/pipeline/tracking_reason.hpp"
 
 namespace unisim::pipeline {
 
@@ -68,6 +69,7 @@ class Pipeline::Impl {
   Messages messages_;
   KeyframeSelector selector_;
   Pacer pacer_;
+  TrackingReason reason_;
   unisim_session_info before_{};
   std::optional<Localiser> localiser_;  // with Options::localise
   int32_t next_live_ = 0;               // first keyframe whose live pose is not given out yet
@@ -136,6 +138,7 @@ const Result& Pipeline::Impl::run() {
   read_all();
   finish();
   result_.lanes = builder_->lane_report();
+  result_.frames_by_reason = reason_.frames();
   messages_.tell_counts();
   builder_->info(&result_.predictor);
   if (heap_watch_.count != nullptr) result_.heap_calls = heap_watch_.calls() - heap_calls;
@@ -205,7 +208,7 @@ bool Pipeline::Impl::track(const FrameReader::Item& item) {
   const unisim_frame& frame = item.frame;
   ++result_.progress.frames;
   const auto start = std::chrono::steady_clock::now();
-  unisim_motion motion = {-1.0, -1.0, 0};
+  unisim_motion motion = {-1.0, -1.0, 0, 0};
   int answer = UNISIM_PREDICTION_OK;
   {
     const ScopedLatency timer(result_.times.observe);
@@ -216,6 +219,7 @@ bool Pipeline::Impl::track(const FrameReader::Item& item) {
     pass_over(item);
     return true;
   }
+  reason_.see_frame(motion.reason);
   // Frames given up for want of time do not count: a replay of those that were tracked chooses the
   // same keyframes.
   const bool own_pace = options_.live || options_.realtime;
@@ -235,7 +239,8 @@ bool Pipeline::Impl::track(const FrameReader::Item& item) {
 
 bool Pipeline::Impl::locate(const FrameReader::Item& item) {
   const unisim_frame& frame = item.frame;
-  const bool chosen = options_.keyframes.stride == 0 || selector_.choose(frame.index, {-1, -1, 0});
+  const bool chosen =
+      options_.keyframes.stride == 0 || selector_.choose(frame.index, {-1, -1, 0, 0});
   if (!chosen) return true;
   ++result_.progress.frames;
   unisim_location found{};
@@ -347,6 +352,7 @@ void Pipeline::Impl::tell_progress() {
     result_.progress.submaps = info.submaps;
     result_.progress.metres_per_unit = builder_->scale().metres_per_unit;
     result_.progress.scale_sigma = builder_->scale().sigma;
+    result_.progress.reason = reason_.of_state(result_.progress.state);
   }
   for (Listener* listener : listeners_) listener->on_progress(result_.progress);
 }

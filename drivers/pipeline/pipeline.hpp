@@ -2,6 +2,7 @@
 // The one place with threads: source -> predictor -> session -> poses, queues of fixed size.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -51,6 +52,8 @@ struct Result {
   Progress progress;
   StageTimes times;
   unisim_predictor_info predictor{};
+  std::array<int64_t, UNISIM_REASON_COUNT>
+      frames_by_reason{};   ///< frames with each UNISIM_REASON_*
   int64_t heap_calls = -1;  ///< inside the library after create, -1: not counted
   LaneReport lanes;
   int32_t image_width = 0;  ///< of the keyframes, pixels

@@ -70,7 +70,7 @@ struct FrameKey {
   double flow;
   double tracked;
   std::int32_t status;
-  std::int32_t reserved;
+  std::int32_t reason;  ///< UNISIM_REASON_*; 0 in files made before there were any
 };
 
 struct KeyframeKey {

@@ -111,8 +111,8 @@ const char* RecordIndex::add_frame(const RecordRef& record, const AlignedBytes& 
     return "frame whose motion is not a number";
   }
   if (!frames_.empty() && frame.index <= frames_.back().index) return "frames out of order";
-  frames_.push_back(
-      {frame.index, frame.timestamp_ns, frame.flow, frame.tracked, frame.status, record});
+  frames_.push_back({frame.index, frame.timestamp_ns, frame.flow, frame.tracked, frame.status,
+                     frame.reason, record});
   return nullptr;
 }
 

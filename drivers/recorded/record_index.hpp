@@ -21,6 +21,7 @@ struct RecordedFrame {
   double flow = -1.0;
   double tracked = -1.0;
   std::int32_t status = UNISIM_PREDICTION_OK;
+  std::int32_t reason = UNISIM_REASON_NONE;
   RecordRef record;
 };
 

@@ -130,7 +130,7 @@ int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motio
   Recorded& recorded = self(predictor);
   return guarded(recorded, recorded.front, [&] {
     const RecordIndex& index = recorded.index;
-    *motion = {-1.0, -1.0, 0};
+    *motion = {-1.0, -1.0, 0, 0};
     recorded.front.now.frame = frame->index;
     follow_front(&recorded);
     const RecordedFrame* keyframe = index.find_keyframe(frame->index);
@@ -144,6 +144,7 @@ int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motio
     if (seen != nullptr) {
       motion->flow = seen->flow;
       motion->tracked = seen->tracked;
+      motion->reason = seen->reason;
       if (seen->status != UNISIM_PREDICTION_OK)
         return repeat_rejection(recorded, recorded.front, seen->record);
     } else if (!index.frames().empty()) {

@@ -80,15 +80,15 @@ void write_header(Recorder& recorder, int32_t width, int32_t height) {
 
 int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motion* motion) {
   Recorder& recorder = self(predictor);
-  *motion = {-1.0, -1.0, 0};
+  *motion = {-1.0, -1.0, 0, 0};
   const int status = recorder.inner->observe(recorder.inner, frame, motion);
   write_header(recorder, frame->image.width, frame->image.height);
   recorder.moment.frame = frame->index;
   store(
       recorder, Kind::kFrame, status,
       [&](RecordBytes& bytes) {
-        bytes.put(
-            FrameKey{frame->index, frame->timestamp_ns, motion->flow, motion->tracked, status, 0});
+        bytes.put(FrameKey{frame->index, frame->timestamp_ns, motion->flow, motion->tracked, status,
+                           motion->reason});
       },
       kNoData);
   return status;

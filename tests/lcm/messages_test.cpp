@@ -186,14 +186,23 @@ TEST_CASE("a status carries the stages") {
   unisim_lcm_status status{};
   status.struct_size = sizeof status;
   status.state = UNISIM_STATE_LOST;
+  status.reason = UNISIM_STATUS_T_REASON_COVERED;
   status.queue_depth = 4;
   status.stage_count = 2;
   status.stages = stages;
   REQUIRE(unisim_lcm_publish_status(out.get(), &status) == UNISIM_LCM_QUEUED);
+  status.struct_size = offsetof(unisim_lcm_status, reason);  // of a program that knows no reasons
+  REQUIRE(unisim_lcm_publish_status(out.get(), &status) == UNISIM_LCM_QUEUED);
+  status.struct_size -= 8;
+  REQUIRE(unisim_lcm_publish_status(out.get(), &status) == UNISIM_LCM_REFUSED);
   const std::vector<std::string> sent = messages_on("UNISIM_STATUS", out.close());
-  REQUIRE(sent.size() == 1);
+  REQUIRE(sent.size() == 2);
+  auto older = decoded(sent[1], unisim_status_t_decode);
+  CHECK(older.reason == UNISIM_STATUS_T_REASON_NONE);
+  unisim_status_t_decode_cleanup(&older);
   auto read = decoded(sent[0], unisim_status_t_decode);
   CHECK(read.state == UNISIM_STATUS_T_STATE_LOST);
+  CHECK(read.reason == UNISIM_STATUS_T_REASON_COVERED);
   CHECK(read.queue_depth == 4);
   REQUIRE(read.n == 2);
   CHECK(std::string(read.stages[1].name) == "observe");

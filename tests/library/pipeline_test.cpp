@@ -111,6 +111,27 @@ TEST_CASE("a run gives poses, keyframes and states in order, and ends with its s
   CHECK(unisim_pipeline_stop(pipeline) == UNISIM_PIPELINE_FINISHED);
 }
 
+TEST_CASE("poses and status say what is wrong with the frames") {
+  CRun run;
+  run.predictor.reasons = {{150, UNISIM_REASON_BLUR}, {199, UNISIM_REASON_TIME_GAP}};
+  unisim_pipeline* const pipeline = run.start();
+  REQUIRE(pipeline != nullptr);
+  wait_for_end(pipeline);
+  REQUIRE(run.told.poses.size() == 200 - 4);
+  CHECK(run.told.poses[1].reason == UNISIM_REASON_START);  // so the frame before had it
+  for (size_t k = 2; k < run.told.poses.size(); ++k) {
+    const bool blurred = k + 4 == 151;  // frame k + 4; a reason is told with the next pose
+    CHECK(run.told.poses[k].reason == (blurred ? UNISIM_REASON_BLUR : UNISIM_REASON_NONE));
+  }
+  unisim_pipeline_status status{};
+  status.struct_size = sizeof status;
+  unisim_pipeline_get_status(pipeline, &status);
+  CHECK(status.reason == UNISIM_REASON_TIME_GAP);
+  unisim_pipeline_stop(pipeline);
+  CHECK(std::string(unisim_reason_name(UNISIM_REASON_TIME_GAP)) == "time gap");
+  CHECK(std::string(unisim_reason_name(77)).empty());
+}
+
 TEST_CASE("corrections take the poses given out before to where they are now") {
   CRun run;
   run.predictor.window_noise = 0.02;

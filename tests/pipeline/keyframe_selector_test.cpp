@@ -11,9 +11,9 @@ using unisim::pipeline::KeyframeSelector;
 
 namespace {
 
-const unisim_motion kStill = {0.0, 1.0, 0};
+const unisim_motion kStill = {0.0, 1.0, 0, 0};
 
-unisim_motion flow_of(double flow) { return {flow, 1.0, 0}; }
+unisim_motion flow_of(double flow) { return {flow, 1.0, 0, 0}; }
 
 std::vector<int64_t> chosen(KeyframeSelector* selector, const std::vector<int64_t>& frames,
                             const unisim_motion& motion) {
@@ -46,9 +46,9 @@ TEST_CASE("a stride does not listen to the predictor's advice") {
   KeyframeConfig config;
   config.stride = 4;
   KeyframeSelector selector(config);
-  REQUIRE(selector.choose(0, {0.0, 1.0, -1}));
-  REQUIRE_FALSE(selector.choose(1, {0.5, 0.1, 1}));
-  REQUIRE(selector.choose(4, {0.0, 1.0, -1}));
+  REQUIRE(selector.choose(0, {0.0, 1.0, -1, 0}));
+  REQUIRE_FALSE(selector.choose(1, {0.5, 0.1, 1, 0}));
+  REQUIRE(selector.choose(4, {0.0, 1.0, -1, 0}));
 }
 
 TEST_CASE("by motion a frame is taken when the flow or the lost share says so") {
@@ -64,14 +64,14 @@ TEST_CASE("by motion a frame is taken when the flow or the lost share says so") 
     REQUIRE(selector.choose(2, flow_of(0.05)));
   }
   SECTION("too little flow") { REQUIRE_FALSE(selector.choose(5, flow_of(0.029))); }
-  SECTION("features out of sight") { REQUIRE(selector.choose(5, {0.0, 0.59, 0})); }
-  SECTION("nothing measured") { REQUIRE_FALSE(selector.choose(5, {-1.0, -1.0, 0})); }
+  SECTION("features out of sight") { REQUIRE(selector.choose(5, {0.0, 0.59, 0, 0})); }
+  SECTION("nothing measured") { REQUIRE_FALSE(selector.choose(5, {-1.0, -1.0, 0, 0})); }
   SECTION("the largest gap") {
     REQUIRE_FALSE(selector.choose(9, kStill));
     REQUIRE(selector.choose(10, kStill));
   }
   SECTION("advice rules over all of it") {
-    REQUIRE(selector.choose(1, {0.0, 1.0, 1}));
-    REQUIRE_FALSE(selector.choose(40, {0.9, 0.1, -1}));
+    REQUIRE(selector.choose(1, {0.0, 1.0, 1, 0}));
+    REQUIRE_FALSE(selector.choose(40, {0.9, 0.1, -1, 0}));
   }
 }

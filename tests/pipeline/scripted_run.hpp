@@ -58,7 +58,7 @@ struct Run {
 
   const Result& go() {
     pipeline = std::make_unique<Pipeline>(options, source.table(), predictor.table(), config,
-                                          std::vector<Listener*>{&listener}, &stop);
+                                          listeners, &stop);
     return pipeline->run();
   }
 
@@ -102,6 +102,7 @@ struct Run {
   Options options;
   std::atomic<bool> stop{false};
   Recorder listener;
+  std::vector<Listener*> listeners{&listener};
   std::unique_ptr<Pipeline> pipeline;
 };
 

@@ -166,7 +166,9 @@ int ScriptedPredictor::observe(const unisim_frame* frame, unisim_motion* motion)
   if (image.data == nullptr || image.data[0] != static_cast<uint8_t>(frame->index)) ++moved_off;
   newest_frame_ = frame->index;
   const int64_t since = keyframes.empty() ? 0 : frame->index - keyframes.back();
-  *motion = {flow * static_cast<double>(since), -1.0, 0};
+  const auto reason = reasons.find(frame->index);
+  *motion = {flow * static_cast<double>(since), -1.0, 0,
+             reason != reasons.end() ? reason->second : UNISIM_REASON_NONE};
   return UNISIM_PREDICTION_OK;
 }
 

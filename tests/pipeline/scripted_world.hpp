@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <set>
 #include <string>
@@ -81,8 +82,9 @@ class ScriptedPredictor {
   bool revises_early = false;     ///< not at finish(), but as soon as it is asked
   /// Called before a window is answered, with its first keyframe, on whatever thread asks.
   std::function<void(int32_t)> before_window;
-  double flow = 0.0;               ///< what observe() reports per frame since the last keyframe
-  std::vector<int64_t> keyframes;  ///< frame indices as told by keyframe()
+  double flow = 0.0;                   ///< what observe() reports per frame since the last keyframe
+  std::map<int64_t, int32_t> reasons;  ///< UNISIM_REASON_* that observe() gives, by frame
+  std::vector<int64_t> keyframes;      ///< frame indices as told by keyframe()
   int64_t observed = 0;
   int64_t moved_off = 0;  ///< observe() calls whose pixels were not those of the frame
 

@@ -38,7 +38,7 @@ WalkPredictor::WalkPredictor(const simulator::World& world, uint64_t seed)
   t.struct_size = sizeof t;
   t.name = "walk";
   t.observe = [](unisim_predictor*, const unisim_frame*, unisim_motion* motion) {
-    *motion = {-1.0, -1.0, 0};
+    *motion = {-1.0, -1.0, 0, 0};
     return UNISIM_PREDICTION_OK;
   };
   t.keyframe = [](unisim_predictor* p, const unisim_frame*, int32_t id) {

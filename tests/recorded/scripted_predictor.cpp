@@ -58,7 +58,8 @@ void fill_maps(Scripted& scripted, const std::vector<double>& seeds) {
 int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motion* motion) {
   Scripted& scripted = self(predictor);
   scripted.frame = frame->index;
-  *motion = {0.01 / (1.0 + static_cast<double>(frame->index)), 0.7, 0};
+  *motion = {0.01 / (1.0 + static_cast<double>(frame->index)), 0.7, 0,
+             frame->index % 4 == 3 ? UNISIM_REASON_BLUR : UNISIM_REASON_NONE};
   if (frame->index != 5) return UNISIM_PREDICTION_OK;
   scripted.text = "frame 5 is black";
   return UNISIM_PREDICTION_REJECTED;

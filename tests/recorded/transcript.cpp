@@ -68,6 +68,7 @@ class Runner {
     Line line("frame " + std::to_string(index), status);
     line.add(motion.flow);
     line.add(motion.tracked);
+    line.add(motion.reason);
     note(line, status);
     transcript_.advice.push_back(motion.keyframe_advice);
     if (status != UNISIM_PREDICTION_OK) return;

@@ -12,7 +12,7 @@ std::string StatusText::operator()(const pipeline::Progress& progress) {
   std::string text = tools::format(
       "%s, %.0f frames/s, pose age %.0f ms (p95 %.0f), %lld dropped, %d keyframes, %d submaps, "
       "%.0f MB",
-      replay::state_name(progress.state), rate_.update(progress.frames),
+      replay::state_text(progress).c_str(), rate_.update(progress.frames),
       ages_->ages().percentile_ms(0.5), ages_->ages().percentile_ms(0.95),
       static_cast<long long>(progress.frames_dropped), progress.keyframes, progress.submaps,
       static_cast<double>(resident_bytes()) / kMega);

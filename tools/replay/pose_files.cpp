@@ -5,6 +5,7 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "drivers/pipeline/tracking_reason.hpp"
 #include "tools/replay/progress_line.hpp"
 
 namespace unisim::replay {
@@ -75,15 +76,15 @@ std::string trajectory_text(const std::string& title, const std::vector<unisim_s
 
 std::string keyframe_table(const RunData& data) {
   std::string text =
-      "id,timestamp,scale,state,confidence,submap,covariance_trace,segment,frame,unit\n";
+      "id,timestamp,scale,state,confidence,submap,covariance_trace,segment,frame,unit,reason\n";
   for (const KeyframeRow& row : data.keyframes) {
     append(&text, "%d,", row.pose.keyframe_id);
     text += seconds_text(row.pose.timestamp_ns);
     append(&text, ",%.10g,%s,%d,%d,", row.pose.T_world_kf.s, state_name(row.pose.state),
            row.pose.confidence, row.pose.submap_id);
     if (row.covariance_trace >= 0.0) append(&text, "%.6g", row.covariance_trace);
-    append(&text, ",%d,%lld,%s\n", row.pose.segment, static_cast<long long>(row.frame_index),
-           data.metric ? "metric" : "relative");
+    append(&text, ",%d,%lld,%s,%s\n", row.pose.segment, static_cast<long long>(row.frame_index),
+           data.metric ? "metric" : "relative", pipeline::reason_name(row.reason));
   }
   return text;
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "drivers/pipeline/tracking_reason.hpp"
 #include "tools/common/json_text.hpp"
 #include "tools/common/output.hpp"
 #include "tools/common/text.hpp"
@@ -38,6 +39,12 @@ const char* state_name(int32_t state) {
     default:
       return "unknown";
   }
+}
+
+std::string state_text(const pipeline::Progress& progress) {
+  const std::string state = state_name(progress.state);
+  const std::string reason = pipeline::reason_name(progress.reason);
+  return reason.empty() ? state : state + " (" + reason + ")";
 }
 
 double ProgressLine::seconds() const {
@@ -78,7 +85,7 @@ std::string ProgressLine::usual_text(const pipeline::Progress& progress) const {
   char line[160];
   std::snprintf(line, sizeof line, "%lld frames, %.0f/s, %d keyframes, %d submaps, %s",
                 static_cast<long long>(progress.frames), fps, progress.keyframes, progress.submaps,
-                state_name(progress.state));
+                state_text(progress).c_str());
   text += line;
   if (progress.frames_total > done && fps > 0.0) {
     std::snprintf(line, sizeof line, ", %.0f s left",
@@ -97,6 +104,7 @@ void ProgressLine::print_json(const pipeline::Progress& progress) const {
                             {"keyframes", progress.keyframes},
                             {"submaps", progress.submaps},
                             {"state", state_name(progress.state)},
+                            {"reason", pipeline::reason_name(progress.reason)},
                             {"seconds", seconds()}};
   tools::print(tools::json_text(line) + "\n");
 }

@@ -14,6 +14,8 @@ namespace unisim::replay {
 
 /// Name of a UNISIM_STATE_*.
 const char* state_name(int32_t state);
+/// The state, and the reason for it where there is one: "lost (covered)".
+std::string state_text(const pipeline::Progress& progress);
 
 class ProgressLine : public pipeline::Listener {
  public:

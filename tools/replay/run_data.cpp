@@ -135,7 +135,8 @@ RunData collect(unisim_session* session, const RunRecord& record, bool every_fra
   for (int32_t id = before.keyframes; id < data.session.keyframes; ++id) {
     unisim_pose pose;
     if (!record.poses().read(session, id, &pose)) continue;
-    data.keyframes.push_back({pose, record.frame_of(id), covariance_trace(session, id)});
+    data.keyframes.push_back(
+        {pose, record.frame_of(id), covariance_trace(session, id), record.reason_of(id)});
   }
   add_submaps(session, record, &data);
   ask_scales(session, &data);

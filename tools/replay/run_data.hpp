@@ -15,6 +15,7 @@ struct KeyframeRow {
   unisim_pose pose;
   int64_t frame_index;
   double covariance_trace;  ///< of the 7x7 covariance, < 0: not known
+  int32_t reason = 0;       ///< UNISIM_REASON_* when it was taken
 };
 
 /// Scale of a segment.

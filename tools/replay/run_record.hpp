@@ -20,6 +20,7 @@ class RunRecord : public pipeline::Listener {
       : poses_(folder), keyframes_(folder), live_(folder), between_(folder) {}
 
   void on_keyframe(int32_t id, const unisim_frame& frame) override;
+  void on_progress(const pipeline::Progress& progress) override;
   void on_window(int32_t submap_id, const unisim_window_prediction& window) override;
   void on_live_pose(const pipeline::LivePose& pose) override;
   void on_between_pose(const pipeline::BetweenPose& pose) override { between_.append(pose); }
@@ -38,9 +39,13 @@ class RunRecord : public pipeline::Listener {
   /// Index of the frame that became the keyframe, -1 if unknown.
   int64_t frame_of(int32_t keyframe) const { return keyframes_.get(keyframe).frame_index; }
 
+  /// UNISIM_REASON_* when it was taken.
+  int32_t reason_of(int32_t keyframe) const { return keyframes_.get(keyframe).reason; }
+
  private:
   struct Keyframe {
     int64_t frame_index = -1;
+    int32_t reason = 0;
   };
 
   pipeline::PoseHistory poses_;
@@ -48,6 +53,7 @@ class RunRecord : public pipeline::Listener {
   pipeline::RecordFile<unisim_stamped_pose> live_;
   pipeline::RecordFile<pipeline::BetweenPose> between_;
   int32_t submaps_ = 0;
+  int32_t newest_ = -1;  // keyframe whose reason is still to come
 };
 
 }  // namespace unisim::replay

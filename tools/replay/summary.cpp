@@ -10,6 +10,7 @@
 
 #include "drivers/onnx/onnx.h"
 #include "drivers/pipeline/stages.hpp"
+#include "drivers/pipeline/tracking_reason.hpp"
 #include "tools/replay/version.hpp"
 
 namespace unisim::replay {
@@ -130,6 +131,16 @@ const char* outcome_name(pipeline::Outcome outcome) {
   return "unknown";
 }
 
+/// Frames with each reason there was.
+Json reasons_json(const pipeline::Result& result) {
+  Json reasons = Json::object();
+  for (int32_t reason = 1; reason < UNISIM_REASON_COUNT; ++reason) {
+    const int64_t frames = result.frames_by_reason[static_cast<size_t>(reason)];
+    if (frames > 0) reasons[pipeline::reason_name(reason)] = frames;
+  }
+  return reasons;
+}
+
 double frames_per_second(const pipeline::Result& result) {
   return static_cast<double>(result.progress.frames) / std::max(result.wall_s, 1e-9);
 }
@@ -214,6 +225,7 @@ Json summary_json(const Run& run) {
           {"coverage", coverage(run.data)},
           {"keyframes_unposed", info.keyframes - info.posed_keyframes},
           {"lost_events", info.lost_events},
+          {"frame_reasons", reasons_json(run.result)},
           {"relocalised", run.result.predictor.relocalised},
           {"segments_joined", run.result.predictor.joined},
           {"segment_scores", segments_json(run.scores)},

@@ -72,7 +72,7 @@ void Mapper::see(const unisim_frame& frame) {
   keep_place();
   frame_ = frame.index;
   time_ns_ = frame.timestamp_ns;
-  front_end_.see(frame.image, &state_.tracks);
+  front_end_.see(frame.image, frame.timestamp_ns, &state_.tracks);
   if (front_end_.jumped()) tell_zoom(frame_);
   if (counts_.started == 0) start_.see_frame(front_end_.gray());
 }

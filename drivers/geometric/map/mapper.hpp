@@ -33,6 +33,7 @@ class Mapper {
   Mapper(const unisim_geometric_config& config, const cv::Size& size);
 
   void see(const unisim_frame& frame);
+  int32_t frame_reason() const { return front_end_.reason(); }  ///< see FrontEnd
   TrackMotion motion() { return front_end_.motion(state_.tracks); }
   /// The frame seen last is keyframe `id`. @return true when the whole state has been adjusted anew
   bool add_keyframe(int32_t id);

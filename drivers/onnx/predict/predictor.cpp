@@ -118,7 +118,7 @@ bool accept_image(OnnxPredictor* me, const unisim_image& image) {
 }
 
 int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motion* motion) {
-  *motion = {-1.0, -1.0, 0};
+  *motion = {-1.0, -1.0, 0, 0};
   return guarded(predictor, &OnnxPredictor::front, [&](OnnxPredictor* me) {
     if (!accept_image(me, frame->image)) return UNISIM_PREDICTION_REJECTED;
     // A network needs no motion to see depth, and says nothing of it before it runs: a fixed beat.

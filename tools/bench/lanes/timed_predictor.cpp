@@ -29,7 +29,7 @@ TimedPredictor::TimedPredictor(const simulator::World& world, uint64_t seed,
   t.name = "simulated";
   t.concurrent_windows = 1;
   t.observe = [](unisim_predictor*, const unisim_frame*, unisim_motion* motion) {
-    *motion = {-1.0, -1.0, 0};
+    *motion = {-1.0, -1.0, 0, 0};
     return UNISIM_PREDICTION_OK;
   };
   t.keyframe = [](unisim_predictor*, const unisim_frame*, int32_t) { return UNISIM_PREDICTION_OK; };

@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "drivers/common/image_mat.hpp"
+#include "drivers/pipeline/tracking_reason.hpp"
 #include "tools/common/json_text.hpp"
 #include "tools/live/figures.hpp"
 #include "tools/replay/progress_line.hpp"
@@ -145,6 +146,7 @@ std::string EventText::status(const View& view, double silent_s) const {
   return event("status", {{"source", source_},
                           {"version", replay::version_text()},
                           {"state", replay::state_name(view.progress.state)},
+                          {"reason", pipeline::reason_name(view.progress.reason)},
                           {"confidence", view.confidence},
                           {"segment", view.segment},
                           {"map_revision", session.map_revision},

@@ -34,7 +34,7 @@
     text('about', 'unisim-live ' + s.version + (s.segment > 0
       ? ', part ' + (s.segment + 1) + ' of the map: track was lost before, scale and place began anew' : ''));
     element('state').className = 'pill ' + (lost ? '' : kinds[s.state] || '');
-    text('state', lost ? 'no connection' : s.state);
+    text('state', lost ? 'no connection' : s.state + (s.reason ? ': ' + s.reason : ''));
     document.title = s.state + ' \u2013 unisim-live';
     figure('rate', s.frames_per_second.toFixed(1));
     text('rate-note', count(s.frames) + ' in all' + (s.frames_bad ? ', ' + count(s.frames_bad) + ' unreadable' : ''));

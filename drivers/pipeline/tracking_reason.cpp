@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Why a run stands where it stands.
+#include "drivers/pipeline/tracking_reason.hpp"
+
+#include "unisim/unisim.h"
+
+namespace unisim::pipeline {
+
+const char* reason_name(int32_t reason) {
+  constexpr std::array<const char*, UNISIM_REASON_COUNT> kNames = {
+      "",         "covered",      "exposure",          "blur", "too little texture", "duplicates",
+      "time gap", "no start yet", "prediction refused"};
+  if (reason < 0 || reason >= UNISIM_REASON_COUNT) return "";
+  return kNames[static_cast<size_t>(reason)];
+}
+
+void TrackingReason::see_frame(int32_t reason) {
+  newest_ = reason > 0 && reason < UNISIM_REASON_COUNT ? reason : UNISIM_REASON_NONE;
+  ++frames_[static_cast<size_t>(newest_)];
+  ++age_;
+  // A frame that came twice harms nothing: it explains no loss.
+  if (newest_ == UNISIM_REASON_NONE || newest_ == UNISIM_REASON_DUPLICATE) return;
+  cause_ = newest_;
+  age_ = 0;
+}
+
+int32_t TrackingReason::of_state(int32_t state) {
+  if (state == UNISIM_STATE_DEGRADED || state == UNISIM_STATE_LOST)
+    return cause_ != UNISIM_REASON_NONE ? cause_ : UNISIM_REASON_PREDICTION;
+  if (age_ > kMemory) cause_ = UNISIM_REASON_NONE;
+  if (state == UNISIM_STATE_INIT && newest_ == UNISIM_REASON_NONE) return UNISIM_REASON_START;
+  return newest_;
+}
+
+}  // namespace unisim::pipeline
