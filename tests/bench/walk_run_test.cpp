@@ -133,3 +133,32 @@ TEST_CASE("times and memory by length of the walk") {
         result.update_ms.back(), result.arena_bytes);
   }
 }
+
+TEST_CASE(
+    "what is left out is missed: bridges most, and without views to submaps pairs are alone") {
+  WalkSettings settings = scan();
+  const double full = mean_ate(settings);
+  const auto without = [&](uint32_t factors) {
+    WalkSettings less = settings;
+    less.disabled_factors = factors;
+    return mean_ate(less);
+  };
+  CHECK(without(UNISIM_FACTOR_BRIDGE) > 1.5 * full);
+  WalkSettings pairs = settings;
+  pairs.submaps = pairs.loops = false;
+  const double alone = mean_ate(pairs);
+  // No pose is held to a submap: what is optimised is the chain of pairs.
+  CHECK(without(UNISIM_FACTOR_BRIDGE | UNISIM_FACTOR_SCALE_ANCHOR) == Approx(alone).epsilon(1e-3));
+}
+
+TEST_CASE("noise of the scale costs, noise of single depths hardly anything") {
+  WalkSettings settings = scan();
+  const double full = mean_ate(settings);
+  WalkSettings scale = settings;
+  scale.scale_noise = 0.15;
+  CHECK(mean_ate(scale) > 1.2 * full);
+  WalkSettings depth = settings;
+  depth.depth_noise = 0.2;
+  depth.holes = 0.1;
+  CHECK(mean_ate(depth) < 1.2 * full);
+}

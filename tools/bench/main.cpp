@@ -74,6 +74,40 @@ CLI::CheckedTransformer on_off() {
   return CLI::CheckedTransformer(std::map<std::string, bool>{{"on", true}, {"off", false}});
 }
 
+void add_ablations(CLI::App* command, WalkSettings* settings) {
+  command->add_option("--overlap", settings->overlap, "keyframes that consecutive windows share")
+      ->transform(in_range(Range::whole(0, 8)));
+  command->add_option("--preset", settings->preset, "consistent or paper")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, int32_t>{
+          {"consistent", UNISIM_PRESET_CONSISTENT}, {"paper", UNISIM_PRESET_PAPER}}));
+  const std::map<std::string, uint32_t> factors = {
+      {"e2v", UNISIM_FACTOR_TWO_VIEW},
+      {"anchor", UNISIM_FACTOR_SCALE_ANCHOR},
+      {"bridge", UNISIM_FACTOR_BRIDGE},
+      {"tie", UNISIM_FACTOR_TIE},
+      {"scale", UNISIM_FACTOR_SCALE},
+      {"v2s", UNISIM_FACTOR_BRIDGE | UNISIM_FACTOR_SCALE_ANCHOR},
+      {"s2s", UNISIM_FACTOR_TIE | UNISIM_FACTOR_SCALE}};
+  command
+      ->add_option_function<std::string>(
+          "--disable",
+          [settings, factors](const std::string& name) {
+            settings->disabled_factors |= factors.at(name);
+          },
+          "leave a kind of factor out, as unisim-replay does")
+      ->check(CLI::IsMember(factors));
+  command
+      ->add_option("--scale-noise", settings->scale_noise,
+                   "more noise of the depth scale of each view, sigma of its logarithm")
+      ->transform(in_range(Range::number(0.0, 1.0)));
+  command
+      ->add_option("--depth-noise", settings->depth_noise,
+                   "more noise of each depth, relative sigma")
+      ->transform(in_range(Range::number(0.0, 1.0)));
+  command->add_option("--holes", settings->holes, "share of pixels without depth")
+      ->transform(in_range(Range::number(0.0, 0.9)));
+}
+
 void add_window(CLI::App* app, WalkSettings* settings, bool* json) {
   using unisim::simulator::WorldKind;
   CLI::App* command = app->add_subcommand("window", "A simulated walk through a session");
@@ -103,6 +137,7 @@ void add_window(CLI::App* app, WalkSettings* settings, bool* json) {
       ->add_option("--readable", settings->readable,
                    "newest keyframes that stay readable in a sliding window; 0: all")
       ->transform(in_range(Range::whole(0, 65536)));
+  add_ablations(command, settings);
   command->add_option("--batch", settings->batch, "on: walk once more as a full batch, to compare")
       ->transform(on_off());
   command->add_flag("--json", *json, "one line of JSON");

@@ -40,6 +40,7 @@ struct NoiseModel {
   double pixel = 0.03;  ///< relative, each pixel
   double outlier_share = 0.05;
   double outlier = 0.6;
+  double holes = 0.0;  ///< share of pixels without depth
 };
 
 }  // namespace unisim::simulator

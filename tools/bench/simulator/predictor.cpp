@@ -95,6 +95,7 @@ DepthMap Predictor::observe(int32_t keyframe, double log_scale, NoiseSource* noi
     if (noise->uniform(0.0, 1.0) < model_.outlier_share) {
       depth *= std::exp(noise->normal(model_.outlier));
     }
+    if (model_.holes > 0.0 && noise->uniform(0.0, 1.0) < model_.holes) depth = 0.0;
     seen[static_cast<size_t>(pixel)] = depth > kLeastDepth ? static_cast<float>(depth) : 0.0F;
   }
   return seen;

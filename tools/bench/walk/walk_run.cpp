@@ -28,9 +28,22 @@ unisim_config config_for(const WalkSettings& settings, size_t loops) {
   if (settings.window_submaps == 0) config.max_loops = static_cast<int32_t>(loops);
   config.window_submaps = settings.window_submaps;
   config.skeleton_capacity = settings.skeleton_capacity;
+  config.window_overlap = settings.overlap;
+  config.preset = settings.preset;
+  config.disabled_factors = settings.disabled_factors;
   config.depth_grid_width = simulator::kDepthWidth;
   config.depth_grid_height = simulator::kDepthHeight;
   return config;
+}
+
+/// The model's noise and what was asked for on top.
+simulator::NoiseModel noise_of(const WalkSettings& settings) {
+  simulator::NoiseModel model;
+  for (double* view : {&model.pair_view, &model.window_view})
+    *view = std::hypot(*view, settings.scale_noise);
+  model.pixel = std::hypot(model.pixel, settings.depth_noise);
+  model.holes = settings.holes;
+  return model;
 }
 
 double ate(const Positions& estimate, const Positions& truth) {
@@ -48,7 +61,7 @@ class Walker {
       : settings_(settings),
         world_(world),
         loops_(loops),
-        predictor_(world, settings.seed),
+        predictor_(world, settings.seed, noise_of(settings)),
         session_(config_for(settings, loops.size()), heap) {}
 
   WalkResult walk();

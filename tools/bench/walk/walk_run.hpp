@@ -11,6 +11,7 @@
 #include "tools/bench/simulator/loops.hpp"
 #include "tools/bench/simulator/world.hpp"
 #include "tools/bench/walk/snapshot_run.hpp"
+#include "unisim/unisim.h"
 
 namespace unisim::bench {
 
@@ -25,7 +26,14 @@ struct WalkSettings {
   int32_t window_submaps = 2;       ///< as in unisim_config; 0: the full batch
   int32_t skeleton_capacity = 128;  ///< as in unisim_config
   int32_t readable = 0;             ///< keyframes that a sliding window keeps; 0: all of the walk
-  bool batch = true;                ///< walk once more as a full batch, to compare with
+  int32_t overlap = 2;              ///< keyframes that consecutive windows share
+  int32_t preset = UNISIM_PRESET_CONSISTENT;
+  uint32_t disabled_factors = 0;  ///< UNISIM_FACTOR_*
+  double scale_noise =
+      0.0;  ///< of the depth of a view as a whole, standard deviation of its logarithm
+  double depth_noise = 0.0;  ///< of each pixel, relative standard deviation
+  double holes = 0.0;        ///< share of pixels without depth
+  bool batch = true;         ///< walk once more as a full batch, to compare with
 };
 
 /// Times are process CPU time [ms] of the call that takes the prediction and the optimisation.

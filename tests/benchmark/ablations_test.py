@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: MIT
+"""ablations.py on short simulated walks: its table, and what it refuses."""
+import json
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+PROGRAMS = sys.argv.pop() if len(sys.argv) > 1 else "build/release/bin"
+TOOLS = Path(__file__).resolve().parents[2] / "tools"
+
+
+def run(*options):
+    return subprocess.run([sys.executable, "-B", str(TOOLS / "ablations.py"), *map(str, options)],
+                          capture_output=True, text=True)
+
+
+class Program(unittest.TestCase):
+    def test_table(self):
+        done = run("--programs", PROGRAMS, "--seeds", 1, "--keyframes", 64, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        result = json.loads(done.stdout)
+        self.assertEqual(result["protocol"]["seeds"], 1)
+        ate = {(entry["row"], entry["overlap"]): entry["ate_m"] for entry in result["ablations"]}
+        self.assertEqual(len(ate), 20)
+        noise = {(entry["noise"], entry["sigma"]): entry["ate_m"] for entry in result["noise"]}
+        self.assertEqual(noise["scale", 0.0], ate["full", 2])
+        self.assertNotEqual(noise["scale", 0.15], ate["full", 2])
+        for row, overlap in (("e2v", 0), ("bridge", 0), ("bridge", 2), ("tie", 2), ("scale", 2)):
+            self.assertNotEqual(ate[row, overlap], ate["full", overlap], row)
+
+    def test_text_has_protocol_and_paper(self):
+        done = run("--programs", PROGRAMS, "--seeds", 1, "--keyframes", 64)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("alignment sim3", done.stdout.splitlines()[0])
+        self.assertRegex(done.stdout, r"\| full \| 0\.\d{3} \| 0\.032 \| 0\.\d{3} \| 0\.020 \|")
+
+    def test_refusals(self):
+        self.assertEqual(run("--recording", "a.rec").returncode, 2)
+        self.assertEqual(run("--seeds", 0).returncode, 2)
+        self.assertEqual(run("--", "--stride", 5).returncode, 2)
+        missing = run("--programs", "/nowhere")
+        self.assertEqual(missing.returncode, 3)
+        self.assertIn("--programs", missing.stderr)
+        self.assertEqual(len(missing.stderr.splitlines()), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
