@@ -1,28 +1,24 @@
 // SPDX-License-Identifier: MIT
 // Keyframes saved and loaded, with their nodes.
-#include <limits>
-
 #include "core/map/keyframe_ring.hpp"
 #include "core/session_config.hpp"
 
 namespace unisim {
 namespace {
 
-constexpr int32_t kMany = std::numeric_limits<int32_t>::max();
-
 void visit_keyframe(Archive* archive, int32_t id, Graph* graph, Keyframe* keyframe) {
   archive->value(&keyframe->timestamp_ns);
   bool has_node = keyframe->node >= 0;
   archive->flag(&has_node);
   if (has_node) graph->visit_node(archive, NodeKind::kKeyframe, &keyframe->node);
-  archive->index(&keyframe->owner, -1, kMany);
+  archive->index(&keyframe->owner, -1, kMostId);
   archive->expect(!has_node || !keyframe->retired());
   if (keyframe->retired()) archive->pose(&keyframe->T_owner_kf);
   archive->index(&keyframe->held_from, -1, id - 1);
   archive->index(&keyframe->segment, -1, kLastId);
   archive->expect(!keyframe->posed() || keyframe->segment >= 0);
   archive->choice(&keyframe->state, Tracking::kRelocalised);
-  archive->index(&keyframe->best_submap, -1, kMany);
+  archive->index(&keyframe->best_submap, -1, kMostId);
   archive->index(&keyframe->best_distance, 0, kMaxViews);
   archive->index(&keyframe->window_count, 0, kLastId);
   archive->index(&keyframe->loop_count, 0, kLastId);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is known of the metre saved and loaded: evidence by node, metres and their edges, distances.
 #include <cmath>
-#include <limits>
 
 #include "core/map/distance_book.hpp"
 #include "core/map/metric_scale.hpp"
@@ -10,8 +9,6 @@
 namespace unisim {
 namespace {
 
-constexpr int32_t kMany = std::numeric_limits<int32_t>::max() / 2;
-
 void visit_evidence(Archive* archive, ScaleEvidence* evidence) {
   archive->finite(&evidence->log_metres);
   archive->finite(&evidence->information);
@@ -19,9 +16,9 @@ void visit_evidence(Archive* archive, ScaleEvidence* evidence) {
 }
 
 void visit_counts(Archive* archive, DistanceCounts* counts) {
-  archive->index(&counts->taken, 0, kMany);
-  archive->index(&counts->refused, 0, kMany);
-  archive->index(&counts->lost, 0, kMany);
+  archive->index(&counts->taken, 0, kMostCount);
+  archive->index(&counts->refused, 0, kMostCount);
+  archive->index(&counts->lost, 0, kMostCount);
 }
 
 void visit_positive(Archive* archive, double* value) {
@@ -113,7 +110,7 @@ void DistanceBook::visit_entry(Archive* archive, Entry* entry) {
   archive->expect(distance.i < distance.j && distance.j < map_.keyframes.size());
   visit_positive(archive, &distance.metres);
   visit_positive(archive, &distance.sigma);
-  archive->index(&entry->submap, -1, kMany);
+  archive->index(&entry->submap, -1, kMostCount);
   archive->finite(&entry->log_metres);
   archive->flag(&entry->long_enough);
   archive->flag(&entry->taken);

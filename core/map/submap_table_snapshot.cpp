@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Submaps saved and loaded, with their views and what they share.
-#include <limits>
-
 #include "core/map/submap_table.hpp"
 #include "core/session_config.hpp"
 
 namespace unisim {
 namespace {
-
-constexpr int32_t kMany = std::numeric_limits<int32_t>::max();
 
 void visit_range(Archive* archive, KeyframeRange* range) {
   archive->index(&range->first, 0, kLastId);
@@ -47,7 +43,7 @@ void visit_health(Archive* archive, LoopHealth* health) {
 }
 
 void SubmapTable::visit(Archive* archive, Graph* graph) {
-  archive->index(&next_id_, 0, kMany);
+  archive->index(&next_id_, 0, kMostId);
   int32_t count = order_.size();
   archive->index(&count, 0, next_id_);
   for (int32_t k = 0; archive->ok() && k < count; ++k) {
@@ -124,7 +120,7 @@ int32_t SubmapTable::scale_of_pair(int32_t k) const {
 
 void SubmapTable::visit_shared(Archive* archive, Graph* graph) {
   int32_t count = shared_.size();
-  archive->index(&count, 0, kMany);
+  archive->index(&count, 0, kMostId);
   archive->need("window_overlap", count, shared_.capacity());
   if (!archive->ok()) return;
   if (archive->loading()) shared_.resize(count);

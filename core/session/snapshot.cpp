@@ -7,8 +7,6 @@
 namespace unisim {
 namespace {
 
-constexpr int32_t kMany = std::numeric_limits<int32_t>::max() / 2;
-
 Status status_of(LoadProblem problem) {
   switch (problem) {
     case LoadProblem::kNone:
@@ -97,16 +95,16 @@ void Session::visit_settings(Archive* archive) {
 }
 
 void Session::visit_session(Archive* archive) {
-  archive->index(&counts_.posed_keyframes, 0, kMany);
+  archive->index(&counts_.posed_keyframes, 0, kMostCount);
   archive->index(&counts_.last_posed, -1, map_.keyframes.size() - 1);
-  archive->index(&counts_.windows, 0, kMany);
-  archive->index(&counts_.loops, 0, kMany);
-  archive->index(&counts_.segments, 0, kMany);
+  archive->index(&counts_.windows, 0, kMostCount);
+  archive->index(&counts_.loops, 0, kMostCount);
+  archive->index(&counts_.segments, 0, kMostCount);
   counts_.map_revision.visit(archive);
   archive->value(&counts_.optimizations);
   archive->expect(counts_.optimizations >= 0 &&
                   counts_.optimizations < std::numeric_limits<int64_t>::max() / 2);
-  archive->index(&next_segment_, 0, kMany);
+  archive->index(&next_segment_, 0, kMostCount);
   archive->flag(&window_came_);
   bool solved = solved_revision_ == map_.graph.revision();
   archive->flag(&solved);

@@ -3,7 +3,6 @@
 #include "core/skeleton/outbox.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace unisim {
 
@@ -40,13 +39,12 @@ Status Outbox::next(const KeyframeRing& keyframes, int32_t end, Retired* retired
 
 /// Those that wait are numbered from 0 on again.
 void Outbox::visit(Archive* archive, const KeyframeRing& keyframes, int32_t next_submap) {
-  constexpr int32_t kMany = std::numeric_limits<int32_t>::max() / 2;
   const int32_t places = merges_.size();
   archive->index(&offered_, 0, keyframes.size());
-  archive->index(&unread_, 0, kMany);
+  archive->index(&unread_, 0, kMostCount);
   int32_t made = made_ - read_;
   int32_t kept = std::min(made, places);
-  archive->index(&made, 0, kMany);
+  archive->index(&made, 0, kMostCount);
   archive->index(&kept, 0, made);
   for (int32_t k = made - kept; archive->ok() && k < made; ++k) {
     const bool lost = archive->loading() && k < made - places;
@@ -64,7 +62,7 @@ void Outbox::visit_merge(Archive* archive, int32_t next_submap, Retired* merge) 
   archive->index(&merge->submap, 0, next_submap - 1);
   archive->index(&merge->anchor, 0, next_submap - 1);
   archive->pose(&merge->T);
-  archive->index(&merge->segment, 0, std::numeric_limits<int32_t>::max());
+  archive->index(&merge->segment, 0, kMostId);
 }
 
 }  // namespace unisim

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The past of a map saved and loaded, and the edges of the map.
-#include <limits>
-
 #include "core/skeleton/skeleton.hpp"
 
 namespace unisim {
 namespace {
 
-constexpr int32_t kMany = std::numeric_limits<int32_t>::max() / 2;
-
 void visit_counts(Archive* archive, SkeletonCounts* counts) {
-  archive->index(&counts->keyframes, 0, kMany);
-  archive->index(&counts->windows, 0, kMany);
-  archive->index(&counts->loops, 0, kMany);
-  archive->index(&counts->stretches, 0, kMany);
-  archive->index(&counts->loops_removed, 0, kMany);
+  archive->index(&counts->keyframes, 0, kMostCount);
+  archive->index(&counts->windows, 0, kMostCount);
+  archive->index(&counts->loops, 0, kMostCount);
+  archive->index(&counts->stretches, 0, kMostCount);
+  archive->index(&counts->loops_removed, 0, kMostCount);
 }
 
 }  // namespace
@@ -49,7 +45,7 @@ void Skeleton::find_live_submaps(Archive* archive) {
 
 void Skeleton::visit_nodes(Archive* archive) {
   int32_t count = nodes_.size();
-  archive->index(&count, 0, kMany);
+  archive->index(&count, 0, kMostCount);
   archive->need("skeleton_capacity", count, std::max<int32_t>(0, nodes_.capacity() - 1));
   if (!archive->ok()) return;
   if (archive->loading()) nodes_.resize(count);
@@ -58,7 +54,7 @@ void Skeleton::visit_nodes(Archive* archive) {
     SkeletonNode& node = nodes_[k];
     if (archive->loading()) node = SkeletonNode();
     archive->value(&node.submap);
-    archive->index(&node.windows, 1, kMany);
+    archive->index(&node.windows, 1, kMostCount);
     archive->value(&node.owned.first);
     archive->value(&node.owned.last);
     windows += node.windows;

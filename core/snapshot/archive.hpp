@@ -4,11 +4,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "core/lie/sim3.hpp"
 #include "core/snapshot/crc32.hpp"
 
 namespace unisim {
+
+/// Counts that are loaded are no larger, so that counting can go on.
+inline constexpr int32_t kMostCount = std::numeric_limits<int32_t>::max() / 2;
+/// The largest id.
+inline constexpr int32_t kMostId = std::numeric_limits<int32_t>::max();
 
 /// Where the bytes go to or come from. @return 1 done, 0 not
 using ArchiveWrite = int32_t (*)(void* context, const void* bytes, size_t size);

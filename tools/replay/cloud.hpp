@@ -45,7 +45,7 @@ constexpr double kGeometricSure = 0.75;
 /// CloudOptions::min_confidence for the geometric predictor, of fitted pixels (of those well inside
 /// of neighbours that agree 0.5). Chosen on a room and a desk of unisim-synth, shown on tsdf_box:
 /// 0.15 has fewer holes and more that hangs across edges, 0.25 the other way; the Chamfer distances
-/// differ by 3 %.
+/// differ by up to 5 %.
 constexpr double kGeometricConfidence = 0.2;
 
 /// The camera as the predictor knows it at the end of a run.
@@ -76,7 +76,7 @@ class Cloud : public pipeline::Listener {
   void on_revision(int32_t submap_id, const unisim_window_revision& revision) override;
   void on_retired(const unisim_retired& retired, const unisim_pose* pose) override;
 
-  static constexpr size_t kMostVoxels = 1U << 18U;  ///< 29 MB while write() runs
+  static constexpr size_t kMostVoxels = 1U << 18U;  ///< while write() runs
 
   /// Writes binary PLY: x y z float, red green blue uchar, confidence float, in the world of the
   /// poses. Of several segments only the longest: they have no common frame.
