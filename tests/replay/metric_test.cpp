@@ -36,7 +36,7 @@ TEST_CASE("a replay with odometry is in metres") {
   CHECK(summary["scale"].get<double>() == Approx(1.0).margin(0.03));
   CHECK(has(read_file(out + "/trajectory.tum"), "# unit of length: metre, known to "));
   CHECK(has(read_file(out + "/trajectory_live.tum"), "# unit of length: arbitrary"));
-  CHECK(has(read_file(out + "/keyframes.csv"), ",metric\n"));
+  CHECK(has(read_file(out + "/keyframes.csv"), ",metric,"));
   CHECK(has(read_file(out + "/report.html"), "metric, "));
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("a replay without says that it is relative") {
   CHECK(summary["metres_per_unit"].is_null());
   CHECK(summary["segment_scales"].empty());
   CHECK(has(read_file(out + "/trajectory.tum"), "# unit of length: arbitrary"));
-  CHECK(has(read_file(out + "/keyframes.csv"), ",relative\n"));
+  CHECK(has(read_file(out + "/keyframes.csv"), ",relative,"));
 }
 
 TEST_CASE("odometry that cannot be read is bad input, in one line") {
