@@ -5,6 +5,8 @@
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+# shellcheck source-path=SCRIPTDIR source=private_apt.sh
+. tools/private_apt.sh
 
 readonly SYSROOT=build/sysroot-aarch64
 readonly PACKAGES="libc6-dev libstdc++-12-dev libopencv-dev liblcm-dev libcli11-dev libtomlplusplus-dev
@@ -25,35 +27,13 @@ die() {
   exit 4
 }
 
-# apt with lists of its own: what the machine has installed plays no part. Signatures are checked with the keys of
-# Debian that are on this machine. $1: scratch folder
-write_apt_configuration() {
-  local state=$1 release mirror
+# The compiler's libraries must not be older than the packages.
+check_release() {
+  local release
   # shellcheck disable=SC1091  # of the system
   release=$(. /etc/os-release && printf '%s %s' "${ID:-}" "${VERSION_CODENAME:-}")
   [ "$release" = 'debian bookworm' ] ||
     die "this is made for Debian 12 (the compiler's libraries must not be older than the packages), here is $release"
-  mirror=$(sed -n 's#^\(URIs: *\|deb \(\[[^]]*\] \)\?\)\(https\?://[^ ]*/debian\)/\? *.*#\3#p' \
-    /etc/apt/sources.list /etc/apt/sources.list.d/*.sources 2>/dev/null | head -n 1) || true
-  mkdir -p "$state/lists/partial" "$state/cache/archives/partial"
-  : >"$state/status"
-  echo "deb ${mirror:-http://deb.debian.org/debian} bookworm main" >"$state/sources.list"
-  cat >"$state/apt.conf" <<TEXT
-Dir::Etc::SourceList "$state/sources.list";
-Dir::Etc::SourceParts "/dev/null";
-Dir::Etc::Preferences "/dev/null";
-Dir::Etc::PreferencesParts "/dev/null";
-Dir::State "$state";
-Dir::State::Lists "$state/lists";
-Dir::State::Status "$state/status";
-Dir::Cache "$state/cache";
-APT::Architecture "arm64";
-APT::Architectures "arm64";
-APT::Sandbox::User "";
-APT::Install-Recommends "false";
-Acquire::Languages "none";
-Acquire::IndexTargets::deb::DEP-11::DefaultEnabled "false";
-TEXT
 }
 
 # Links that name a file from the root of a system are made to name it from where they lie. $1: sysroot
@@ -78,7 +58,9 @@ link_alternatives() {
 # $1: scratch folder
 fetch() {
   local scratch=$1 made=$1/made package
-  write_apt_configuration "$scratch"
+  check_release
+  # Signatures are checked with the keys of Debian that are on this machine.
+  write_apt_configuration "$scratch" bookworm arm64
   export APT_CONFIG=$scratch/apt.conf
   # shellcheck disable=SC2086  # a list
   { apt-get -q update && apt-get -q -y --download-only install $PACKAGES; } >"$scratch/log" 2>&1 ||

@@ -4,6 +4,8 @@
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+# shellcheck source-path=SCRIPTDIR source=private_apt.sh
+. tools/private_apt.sh
 
 readonly NEWEST=1.31.1
 readonly HEADER_PACKAGE=libonnxruntime-dev=1.21.0+dfsg-1
@@ -58,37 +60,11 @@ fetch_library() {
   mv "$scratch/made" "$target"
 }
 
-# apt with lists of its own: what the machine has installed plays no part. $1: scratch folder
-write_apt_configuration() {
-  local state=$1
-  local mirror
-  mirror=$(sed -n 's#^\(URIs: *\|deb \(\[[^]]*\] \)\?\)\(https\?://[^ ]*/debian\)/\? *.*#\3#p' \
-    /etc/apt/sources.list /etc/apt/sources.list.d/*.sources 2>/dev/null | head -n 1) || true
-  mkdir -p "$state/lists/partial" "$state/cache/archives/partial"
-  : >"$state/status"
-  # The package is checked by its hash, so that the archive's key need not be known here.
-  echo "deb [trusted=yes] ${mirror:-http://deb.debian.org/debian} trixie main" >"$state/sources.list"
-  cat >"$state/apt.conf" <<TEXT
-Dir::Etc::SourceList "$state/sources.list";
-Dir::Etc::SourceParts "/dev/null";
-Dir::Etc::Preferences "/dev/null";
-Dir::Etc::PreferencesParts "/dev/null";
-Dir::State "$state";
-Dir::State::Lists "$state/lists";
-Dir::State::Status "$state/status";
-Dir::Cache "$state/cache";
-APT::Architecture "amd64";
-APT::Architectures "amd64";
-APT::Sandbox::User "";
-Acquire::Languages "none";
-Acquire::IndexTargets::deb::DEP-11::DefaultEnabled "false";
-TEXT
-}
-
 # The header is the same on every architecture. $1: scratch folder
 fetch_header() {
   local scratch=$1
-  write_apt_configuration "$scratch"
+  # The package is checked by its hash, so that the archive's key need not be known here.
+  write_apt_configuration "$scratch" '[trusted=yes] trixie' amd64
   (
     cd "$scratch"
     export APT_CONFIG=$scratch/apt.conf

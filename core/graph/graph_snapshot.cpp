@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // A factor graph saved and loaded, place by place.
-#include <limits>
 
 #include "core/graph/graph.hpp"
 #include "core/graph/slots.hpp"
@@ -31,8 +30,8 @@ void visit_kernel(Archive* archive, RobustKernel* kernel) {
 void Graph::visit_sizes(Archive* archive) {
   int32_t nodes = nodes_.size();
   int32_t edges = edges_.size();
-  archive->index(&nodes, 0, std::numeric_limits<int32_t>::max());
-  archive->index(&edges, 0, std::numeric_limits<int32_t>::max());
+  archive->index(&nodes, 0, kMostId);
+  archive->index(&edges, 0, kMostId);
   archive->value(&next_serial_);
   // All else that decides these lengths is checked by name.
   archive->need("max_loops", nodes, nodes_.capacity());

@@ -3,7 +3,6 @@
 #include "core/map/depth_store.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace unisim {
 
@@ -55,7 +54,7 @@ void DepthStore::visit(Archive* archive) {
   int32_t count = 0;
   for (const Source& source : sources_) count += source.keyframe >= 0 ? 1 : 0;
   const int32_t oldest = count == slots ? next_ : 0;
-  archive->index(&count, 0, std::numeric_limits<int32_t>::max());
+  archive->index(&count, 0, kMostId);
   const int32_t left_out = std::max<int32_t>(0, count - slots);
   for (int32_t k = 0; archive->ok() && k < count; ++k) {
     const int32_t slot = archive->loading() ? k - left_out : (oldest + k) % slots;
@@ -69,9 +68,9 @@ void DepthStore::visit_map(Archive* archive, int32_t slot) {
   const bool kept = slot >= 0;
   Source source;
   if (!archive->loading()) source = sources_[slot];
-  archive->index(&source.keyframe, 0, std::numeric_limits<int32_t>::max());
-  archive->index(&source.submap, -1, std::numeric_limits<int32_t>::max());
-  archive->index(&source.view, -1, std::numeric_limits<int32_t>::max());
+  archive->index(&source.keyframe, 0, kMostId);
+  archive->index(&source.submap, -1, kMostId);
+  archive->index(&source.view, -1, kMostId);
   if (archive->loading() && kept) sources_[slot] = source;
   for (int32_t cell = 0; archive->ok() && cell < cells_; ++cell) {
     float none = 0.0F;

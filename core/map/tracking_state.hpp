@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 
 #include "core/snapshot/archive.hpp"
 
@@ -42,10 +41,9 @@ class TrackingState {
 
   /// Save or load.
   void visit(Archive* archive) {
-    constexpr int32_t kMost = std::numeric_limits<int32_t>::max() / 2;
     archive->choice(&state_, Tracking::kRelocalised);
-    archive->index(&refused_in_a_row_, 0, kMost);
-    archive->index(&lost_events_, 0, kMost);
+    archive->index(&refused_in_a_row_, 0, kMostCount);
+    archive->index(&lost_events_, 0, kMostCount);
   }
 
  private:

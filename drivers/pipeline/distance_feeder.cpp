@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "drivers/pipeline/similarity.hpp"
+
 namespace unisim::pipeline {
 namespace {
 
@@ -14,12 +16,6 @@ constexpr double kLeastStraight = 0.8;
 constexpr double kBendSigma = 0.2;
 // A chord that is less sure than this says nothing.
 constexpr double kMostSigma = 0.3;
-
-double distance(const double* a, const double* b) {
-  double sum = 0.0;
-  for (int k = 0; k < 3; ++k) sum += (b[k] - a[k]) * (b[k] - a[k]);
-  return std::sqrt(sum);
-}
 
 }  // namespace
 

@@ -15,11 +15,6 @@ namespace {
 // Keyframes nearer to each other than this share of the longest distance say little on the scale.
 constexpr double kFarEnough = 0.25;
 
-double distance(const unisim_sim3& a, const unisim_sim3& b) {
-  return std::sqrt(std::pow(a.t[0] - b.t[0], 2) + std::pow(a.t[1] - b.t[1], 2) +
-                   std::pow(a.t[2] - b.t[2], 2));
-}
-
 }  // namespace
 
 Localiser::Localiser(const unisim_session* session, unisim_predictor* predictor) {
@@ -46,13 +41,13 @@ double Localiser::scale_at(const Common& keyframe) const {
   double farthest = 0.0;
   for (const Common& other : keyframes_) {
     if (comparable(other))
-      farthest = std::max(farthest, distance(other.T_map_kf, keyframe.T_map_kf));
+      farthest = std::max(farthest, distance(other.T_map_kf.t, keyframe.T_map_kf.t));
   }
   std::vector<double> ratios;
   for (const Common& other : keyframes_) {
-    const double there = distance(other.T_map_kf, keyframe.T_map_kf);
+    const double there = distance(other.T_map_kf.t, keyframe.T_map_kf.t);
     if (!comparable(other) || !(there > kFarEnough * farthest)) continue;
-    ratios.push_back(distance(other.T_world_kf, keyframe.T_world_kf) / there);
+    ratios.push_back(distance(other.T_world_kf.t, keyframe.T_world_kf.t) / there);
   }
   return ratios.empty() ? 0.0 : drivers::median(&ratios);
 }

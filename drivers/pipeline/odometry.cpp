@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/pipeline/similarity.hpp"
 #include "drivers/sequence/text_file.hpp"
 
 namespace unisim::pipeline {
@@ -36,14 +37,6 @@ std::vector<double> numbers_of(const std::string& path, const sequence::TextLine
   return numbers;
 }
 
-double distance(const Travelled& a, const Travelled& b) {
-  double sum = 0.0;
-  for (size_t k = 0; k < 3; ++k) {
-    sum += (b.position[k] - a.position[k]) * (b.position[k] - a.position[k]);
-  }
-  return std::sqrt(sum);
-}
-
 }  // namespace
 
 Odometry Odometry::read(const std::string& path) {
@@ -66,7 +59,8 @@ Odometry Odometry::read(const std::string& path) {
       }
       if (!odometry.entries_.empty()) {
         const Travelled& before = odometry.entries_.back().travelled;
-        entry.travelled.path = before.path + distance(before, entry.travelled);
+        entry.travelled.path =
+            before.path + distance(before.position.data(), entry.travelled.position.data());
       }
     }
     odometry.entries_.push_back(entry);

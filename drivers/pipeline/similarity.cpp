@@ -38,4 +38,8 @@ unisim_sim3 inverse(const unisim_sim3& T_a_b) {
   return out;
 }
 
+double distance(const double* a, const double* b) {
+  return std::sqrt(std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2) + std::pow(a[2] - b[2], 2));
+}
+
 }  // namespace unisim::pipeline

@@ -94,10 +94,6 @@ bool finite(const unisim_sim3& T) {
          std::all_of(std::begin(T.t), std::end(T.t), good);
 }
 
-double distance(const double* a, const double* b) {
-  return std::sqrt(std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2) + std::pow(a[2] - b[2], 2));
-}
-
 }  // namespace
 
 bool pick_two(const unisim_window_prediction& window, int32_t a, int32_t b, int32_t image_width,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tests/capi/world.hpp"
+#include "tests/support/same_session.hpp"
 #include "tests/support/snapshot_bytes.hpp"
 
 using namespace unisim::test;
@@ -33,21 +34,12 @@ struct Copy {
 
 bool same_poses(const Host& a, const Host& b) {
   const int32_t keyframes = a.info().keyframes;
-  bool same = keyframes == b.info().keyframes;
-  for (int32_t id = 0; id < keyframes; ++id) {
-    unisim_pose p = {};
-    unisim_pose q = {};
-    p.struct_size = q.struct_size = sizeof p;
-    const unisim_status status = unisim_get_pose(a, id, &p);
-    same = same && unisim_get_pose(b, id, &q) == status && std::memcmp(&p, &q, sizeof p) == 0;
-  }
-  return same;
+  return keyframes == b.info().keyframes && same_poses(a, b, keyframes);
 }
 
-bool same_info(const Host& a, const Host& b) {
-  const unisim_session_info p = a.info();
-  const unisim_session_info q = b.info();
-  return std::memcmp(&p, &q, sizeof p) == 0;
+void check_same(const Host& a, const Host& b) {
+  CHECK(same_poses(a, b));
+  CHECK(same_info(a, b));
 }
 
 int32_t loop_state(const Host& host, int32_t id) {
@@ -69,12 +61,10 @@ TEST_CASE("a saved map goes on in another session with the same bits") {
   feed(host, world, at);
   World again = world;
   Copy copy(host, config);
-  CHECK(same_poses(host, copy.host));
-  CHECK(same_info(host, copy.host));
+  check_same(host, copy.host);
   feed(host, world, 60);
   feed(copy.host, again, 60);
-  CHECK(same_poses(host, copy.host));
-  CHECK(same_info(host, copy.host));
+  check_same(host, copy.host);
 }
 
 TEST_CASE("a covariance can be asked for before and after the map was loaded") {
@@ -206,8 +196,7 @@ TEST_CASE("a map in two segments goes on, and is joined, with the same bits") {
     feed(*session, *truth, 40);
   }
   CHECK(host.info().segments == 1);
-  CHECK(same_poses(host, copy.host));
-  CHECK(same_info(host, copy.host));
+  check_same(host, copy.host);
 }
 
 TEST_CASE("within a run time goes on") {
@@ -248,8 +237,7 @@ TEST_CASE("loops go on as they were: live, condensed, suspended, removed") {
   CHECK(copy.host.info().suspended_loops == 1);
   feed(host, world, 60);
   feed(copy.host, again, 60);
-  CHECK(same_poses(host, copy.host));
-  CHECK(same_info(host, copy.host));
+  check_same(host, copy.host);
 }
 
 TEST_CASE("only a session without keyframes takes a map") {

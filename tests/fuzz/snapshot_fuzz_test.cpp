@@ -1,37 +1,15 @@
 // SPDX-License-Identifier: MIT
 // A session saved and loaded at any moment goes on as the one that was saved, to the last bit.
-#include <cstring>
-
 #include "tests/support/catch.hpp"
 #include "tests/support/owned_session.hpp"
 #include "tests/support/random_config.hpp"
 #include "tests/support/random_session.hpp"
+#include "tests/support/same_session.hpp"
 #include "tests/support/snapshot_bytes.hpp"
 
 using namespace unisim::test;
 
 namespace {
-
-bool same_poses(const unisim_session* a, const unisim_session* b, int32_t keyframes) {
-  bool same = true;
-  for (int32_t id = 0; id < keyframes; ++id) {
-    unisim_pose p = {};
-    unisim_pose q = {};
-    p.struct_size = q.struct_size = sizeof p;
-    const unisim_status status = unisim_get_pose(a, id, &p);
-    same = same && unisim_get_pose(b, id, &q) == status && std::memcmp(&p, &q, sizeof p) == 0;
-  }
-  return same;
-}
-
-bool same_info(const unisim_session* a, const unisim_session* b) {
-  unisim_session_info p = {};
-  unisim_session_info q = {};
-  p.struct_size = q.struct_size = sizeof p;
-  REQUIRE(unisim_get_info(a, &p) == UNISIM_OK);
-  REQUIRE(unisim_get_info(b, &q) == UNISIM_OK);
-  return std::memcmp(&p, &q, sizeof p) == 0;
-}
 
 /// Two sessions get the same calls; now and then the second is loaded from what the first saves.
 int32_t run(uint32_t seed, double garbage) {

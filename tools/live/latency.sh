@@ -17,6 +17,8 @@ if [ $# -eq 0 ] || [ "$1" = --help ]; then
   usage
   exit $(($# > 0 ? 0 : 2))
 fi
+# shellcheck source-path=SCRIPTDIR source=film_loop.sh
+. "$(dirname "${BASH_SOURCE[0]}")/film_loop.sh"
 images=$(realpath "$1")
 seconds=${2:-60}
 build=${BUILD:-build/release}
@@ -31,21 +33,7 @@ clean_up() {
 }
 trap clean_up EXIT
 
-mkdir "$work/loop"
-ln -s "$images" "$work/loop/rgb"
-find "$images/" -maxdepth 1 -name "$pattern" -printf 'rgb/%f\n' | sort >"$work/names"
-[ "$(wc -l <"$work/names")" -ge 100 ] || {
-  echo "latency: $images: fewer than 100 images match $pattern" >&2
-  exit 3
-}
-awk -v frames=$((seconds * 30)) '
-  { name[NR - 1] = $0 }
-  END {
-    for (k = 0; k < frames; ++k) {
-      at = k % (2 * NR - 2)
-      printf "%.6f %s\n", k / 30, name[at < NR ? at : 2 * NR - 2 - at]
-    }
-  }' "$work/names" >"$work/loop/rgb.txt"
+film_loop "$work/loop" "$images" "$pattern" $((seconds * 30))
 
 # $*: further arguments of unisim-live
 play() {
