@@ -5,38 +5,34 @@
     tools/benchmark.py RECORDING... --out DIR
     tools/benchmark.py --synth room,corridor --conditions original,half,flicker --out DIR
     tools/benchmark.py RECORDING --out DIR --compare OLD/table.json
+    tools/benchmark.py --suite FILE --out DIR
 
-Recordings are what unisim-replay takes. Images of the conditions (--list names them) are made once and kept
-under DIR/recordings (--work). DIR gets table.md and table.json, the protocol in both. Ground truth: a file in
-TUM format, --ground-truth or groundtruth.txt in the recording; without one there are no errors, only coverage.
-What follows a lone -- goes to unisim-replay as it stands. Needs numpy and OpenCV for Python.
+Recordings are what unisim-replay takes, videos too. Images of the conditions (--list names them) are made once and
+kept under DIR/recordings (--work). DIR gets table.md and table.json, the protocol in both. Ground truth: a file in
+TUM format, --ground-truth or groundtruth.txt in the recording, or the pose files of 7-Scenes; without one there are no
+errors, only coverage. A row that fails says why in one line and the others go on. Each line of a suite is a command
+line of this program; all rows come into one table. What follows a lone -- goes to unisim-replay as it stands.
+Needs numpy and OpenCV for Python.
 """
 import argparse
+import copy
 import csv
 import json
 import os
 import platform
+import shlex
 import statistics
-import subprocess
 import sys
 from pathlib import Path
 
 try:
-    import cv2
-    import numpy as np
     from benchmark_conditions import CONDITIONS
+    from benchmark_recording import Failure, Recording, call, last_line, path_length, read_poses
     from benchmark_table import comparison_text, table_text
 except ImportError as problem:
     sys.exit(f"benchmark: {problem}; install python3-numpy and python3-opencv")
 
 TOOLS = Path(__file__).resolve().parent
-
-class Failure(Exception):
-    """One line for the user and an exit code."""
-
-    def __init__(self, code, text):
-        super().__init__(text)
-        self.code = code
 
 
 def names_or_file(text):
@@ -46,15 +42,17 @@ def names_or_file(text):
     return [part for part in parts if part]
 
 
-def parse_arguments(argv):
-    own, extra = (argv[:argv.index("--")], argv[argv.index("--") + 1:]) if "--" in argv else (argv, [])
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    add = parser.add_argument
+def parser():
+    made = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    add = made.add_argument
     add("recordings", nargs="*", metavar="RECORDING")
     add("--data", metavar="DIR", help="every folder in DIR is a recording")
     add("--synth", metavar="SCENES", help="render these scenes of unisim-synth: room,corridor,desk")
     add("--synth-frames", type=int, default=300, metavar="N", help="frames of each (300)")
     add("--synth-size", default="640x480", metavar="WxH")
+    add("--synth-options", default="--loops 1 --noise --blur", metavar="TEXT", help="others (--loops 1 --noise --blur)")
+    add("--suite", metavar="FILE", help="command lines of this program, one a line: one table; $NAMES are replaced")
+    add("--name", help="of the one recording, in the table (its folder's)")
     add("--conditions", metavar="NAMES|FILE", help="some of the conditions, with commas or one a line (all)")
     add("--list", action="store_true", help="print the conditions, end")
     add("--offsets", default="0", metavar="N,N", help="first frames; one run for each, the table has medians (0)")
@@ -70,146 +68,61 @@ def parse_arguments(argv):
     add("--compare", metavar="FILE", help="an earlier table.json: ratios, and what got worse")
     add("--worse", type=float, default=0.1, metavar="SHARE", help="that counts as worse (0.1)")
     add("--bin", default=str(TOOLS.parent / "build/release/bin"), metavar="DIR", help="the programs")
-    arguments = parser.parse_args(own)
-    arguments.extra = extra
+    return made
+
+
+def parse_arguments(argv, base=None):
+    """What is not said is as in base; what follows -- is added to what followed it there."""
+    own, extra = (argv[:argv.index("--")], argv[argv.index("--") + 1:]) if "--" in argv else (argv, [])
+    arguments = parser().parse_args(own, copy.copy(base) if base else None)
+    arguments.extra = (base.extra if base else []) + extra
     return arguments
 
 
+def jobs_of(arguments):
+    """One for each line of a suite; without one the command line itself."""
+    if not arguments.suite:
+        return [checked(arguments)]
+    try:
+        text = Path(arguments.suite).read_text()
+    except (OSError, UnicodeDecodeError):
+        raise Failure(3, f"--suite: {arguments.suite} cannot be read") from None
+    lines = (shlex.split(os.path.expandvars(line), comments=True) for line in text.splitlines())
+    jobs = [checked(parse_arguments(words, arguments)) for words in lines if words]
+    if not jobs:
+        raise Failure(3, f"--suite: {arguments.suite} has no line")
+    return jobs
+
+
 def checked(arguments):
-    wanted = names_or_file(arguments.conditions) if arguments.conditions else list(CONDITIONS)
-    for name in wanted:
+    arguments.wanted = names_or_file(arguments.conditions) if arguments.conditions else list(CONDITIONS)
+    for name in arguments.wanted:
         if name not in CONDITIONS:
             raise Failure(2, f"--conditions: {name} is not known; --list names them")
     try:
-        offsets = [int(text) for text in arguments.offsets.split(",")]
+        arguments.first_frames = [int(text) for text in arguments.offsets.split(",")]
     except ValueError:
-        offsets = [-1]
-    if min(offsets) < 0:
+        arguments.first_frames = [-1]
+    if min(arguments.first_frames) < 0:
         raise Failure(2, f"--offsets is {arguments.offsets}, must be frame numbers, as 0,1,2")
-    recordings = [Path(text) for text in arguments.recordings]
+    arguments.paths = [Path(text) for text in arguments.recordings]
     if arguments.data:
         if not Path(arguments.data).is_dir():
             raise Failure(3, f"--data: {arguments.data} is no folder")
-        recordings += sorted(path for path in Path(arguments.data).iterdir() if path.is_dir())
-    for path in recordings:
+        arguments.paths += sorted(path for path in Path(arguments.data).iterdir() if path.is_dir())
+    for path in arguments.paths:
         if not path.exists():
             raise Failure(3, f"{path}: no such recording")
-    if not recordings and not arguments.synth:
-        raise Failure(2, "give recordings, --data DIR or --synth SCENES")
-    if arguments.ground_truth and len(recordings) != 1:
-        raise Failure(2, "--ground-truth is that of one recording")
-    return wanted, offsets, recordings
+    arguments.scenes = names_or_file(arguments.synth) if arguments.synth else []
+    count = len(arguments.paths) + len(arguments.scenes)
+    if count == 0:
+        raise Failure(2, "give recordings, --data DIR, --synth SCENES or --suite FILE")
+    if count != 1 and (arguments.ground_truth or arguments.name):
+        raise Failure(2, "--ground-truth and --name are those of one recording")
+    return arguments
 
 
-def call(arguments, program, *options):
-    path = Path(arguments.bin) / program
-    if not path.is_file():
-        raise Failure(3, f"{path} is missing; build it, or give --bin DIR")
-    return subprocess.run([str(path), *map(str, options)], capture_output=True, text=True)
-
-
-def last_line(result):
-    lines = (result.stderr.strip() or result.stdout.strip()).splitlines()
-    return lines[-1] if lines else f"exit code {result.returncode}"
-
-
-class Frames:
-    """Images of a recording by number, read when they are asked for."""
-
-    def __init__(self, arguments, path):
-        result = call(arguments, "unisim-replay", path, "--list-frames", "--format", arguments.format, "--from",
-                      arguments.first, *(["--to", arguments.last] if arguments.last >= 0 else []))
-        if result.returncode != 0:
-            raise Failure(3, last_line(result))
-        rows = [json.loads(line) for line in result.stdout.splitlines()]
-        self.files = [row["file"] for row in rows]
-        self.times = [row["time"] for row in rows]
-        if len(rows) < 10:
-            raise Failure(3, f"{path}: {len(rows)} frames; a recording needs at least 10")
-        if len(set(self.files)) < len(rows):
-            raise Failure(3, f"{path}: frames are not files of their own; take the video apart into images first")
-        self.step = statistics.median(b - a for a, b in zip(self.times, self.times[1:]))
-
-    def __len__(self):
-        return len(self.files)
-
-    def __getitem__(self, i):
-        image = cv2.imread(self.files[i])
-        if image is None:
-            raise Failure(3, f"{self.files[i]}: cannot be read")
-        return image
-
-
-def read_poses(path):
-    poses = []
-    for number, line in enumerate(Path(path).read_text().splitlines(), 1):
-        if not line.strip() or line.startswith("#"):
-            continue
-        try:
-            values = [float(word) for word in line.split()]
-        except ValueError:
-            values = []
-        if len(values) != 8:
-            raise Failure(3, f"{path}:{number}: not time x y z qx qy qz qw")
-        poses.append(values)
-    return np.array(sorted(poses)).reshape(-1, 8)
-
-
-class Recording:
-    def __init__(self, arguments, path, work):
-        self.name, self.frames = path.name, Frames(arguments, path)
-        self.folder = work / path.name
-        truth = arguments.ground_truth or path / "groundtruth.txt"
-        self.truth = read_poses(truth) if Path(truth).is_file() else np.zeros((0, 8))
-        if arguments.ground_truth and not len(self.truth):
-            raise Failure(3, f"{arguments.ground_truth}: no poses")
-        self.focal, self.focal_known = arguments.true_focal, arguments.true_focal is not None
-        card = path / "camera.toml"
-        if self.focal is None and card.is_file():
-            values = dict(line.split(" = ", 1) for line in card.read_text().splitlines() if " = " in line)
-            self.focal, self.focal_known = float(values["fx"]), True
-        if self.focal is None:
-            self.focal = 0.85 * max(self.frames[0].shape[:2])
-
-    def pose_text(self, index):
-        """Ground truth of a frame, "" where there is none within half a frame."""
-        time = self.frames.times[index]
-        at = int(np.abs(self.truth[:, 0] - time).argmin()) if len(self.truth) else -1
-        if at < 0 or abs(self.truth[at, 0] - time) > 0.51 * self.frames.step:
-            return ""
-        return " ".join(f"{value:.9g}" for value in self.truth[at, 1:])
-
-    def degraded(self, condition):
-        """The folder of a condition, in the layout of TUM; made where it is not there yet."""
-        key = f"{condition.make.__name__}-q{condition.quality}-{len(self.frames)}"
-        folder = self.folder / key
-        done = {"first": self.frames.files[0], "last": self.frames.files[-1], "focal": self.focal,
-                "truth": len(self.truth)}
-        mark = folder / "made.json"
-        if mark.is_file() and json.loads(mark.read_text()) == done:
-            return folder
-        (folder / "rgb").mkdir(parents=True, exist_ok=True)
-        step = self.frames.step * condition.every
-        with open(folder / "rgb.txt", "w") as images, open(folder / "groundtruth.txt", "w") as truth:
-            for number, (image, index) in enumerate(condition.make(self.frames, self.focal)):
-                name = f"rgb/{number:06d}.jpg"
-                cv2.imwrite(str(folder / name), image, [cv2.IMWRITE_JPEG_QUALITY, condition.quality])
-                images.write(f"{number * step:.6f} {name}\n")
-                pose = self.pose_text(index) if index is not None else ""
-                if pose:
-                    truth.write(f"{number * step:.6f} {pose}\n")
-        if not (folder / "groundtruth.txt").stat().st_size:
-            (folder / "groundtruth.txt").unlink()
-        mark.write_text(json.dumps(done))
-        return folder
-
-
-def path_length(truth, begin, end):
-    inside = truth[(truth[:, 0] >= begin) & (truth[:, 0] <= end), 1:4]
-    return float(np.linalg.norm(np.diff(inside, axis=0), axis=1).sum()) if len(inside) > 1 else 0.0
-
-
-def figures(folder, out, focal_true):
+def figures(truth, out, focal_true):
     """What one run gave."""
     summary = json.loads((out / "summary.json").read_text())
     row = {"coverage": summary["coverage"], "segments": summary["segments"], "ate_all_m": summary["ate_rmse_m"],
@@ -224,30 +137,41 @@ def figures(folder, out, focal_true):
     row["ate_m"] = longest["ate_rmse_m"]
     with open(out / "keyframes.csv") as file:
         times = {int(line["id"]): float(line["timestamp"]) for line in csv.DictReader(file)}
-    length = path_length(read_poses(folder / "groundtruth.txt"), times[longest["first"]], times[longest["last"]])
+    length = path_length(truth, times[longest["first"]], times[longest["last"]])
     if length > 0:
         row["ate_share"] = row["ate_m"] / length
     return row
 
 
-def measure(arguments, recording, name, offsets, out):
-    """One row: medians over the offsets."""
-    condition = CONDITIONS[name]
+def replay_options(arguments, recording, condition, offset):
+    """The sequence and its frames; the ground truth; with the poses of that file."""
+    if condition.make is None:
+        last = ["--to", arguments.last] if arguments.last >= 0 else []
+        given = ["--ground-truth", recording.own_truth()] if len(recording.truth) else []
+        return [recording.path, "--format", arguments.format, "--from", arguments.first + offset, *last,
+                *given], recording.truth
     folder = recording.degraded(condition)
+    truth = folder / "groundtruth.txt"
+    return [folder, "--format", "tum", "--from", offset], read_poses(truth) if truth.is_file() else recording.truth[:0]
+
+
+def measure(arguments, recording, name, out):
+    """One row: medians over the first frames."""
+    condition = CONDITIONS[name]
+    if condition.needs_focal and not recording.focal_known:
+        raise Failure(2, "the focal length is not known; give --true-focal")
     focal = recording.focal * condition.focal
     runs, problem = [], ""
-    for offset in offsets:
+    for offset in arguments.first_frames:
         target = out / "runs" / f"{recording.name}-{name}-{offset}"
-        result = call(arguments, "unisim-replay", folder, "--format", "tum", "--from", offset, "--predictor",
-                      arguments.predictor, "--out", target, "--force", "--quiet", "--no-report",
-                      *condition.replay(focal), *arguments.extra)
-        if result.returncode == 2:
-            raise Failure(2, last_line(result))
+        options, truth = replay_options(arguments, recording, condition, offset)
+        result = call(arguments, "unisim-replay", *options, "--predictor", arguments.predictor, "--out", target,
+                      "--force", "--quiet", "--no-report", *condition.given(focal), *arguments.extra)
         if result.returncode == 0:
-            runs.append(figures(folder, target, focal if recording.focal_known else 0))
+            runs.append(figures(truth, target, focal if recording.focal_known else 0))
         else:
             problem = last_line(result)
-    row = {"recording": recording.name, "condition": name, "runs": len(runs), "failed": len(offsets) - len(runs)}
+    row = {"runs": len(runs)}
     for key in sorted({key for run in runs for key in run}):
         values = [run[key] for run in runs if run.get(key) is not None]
         if values:
@@ -256,29 +180,39 @@ def measure(arguments, recording, name, offsets, out):
     if len(errors) > 1:
         row["ate_worst_m"] = max(errors)
     if problem:
-        row["problem"] = problem
+        row["problem"] = f"{len(arguments.first_frames) - len(runs)} of {len(arguments.first_frames)} runs: {problem}"
     return row
 
 
 def render(arguments, scene, work):
-    """A synthetic recording, rendered once."""
-    folder = work / f"synth-{scene}"
-    result = call(arguments, "unisim-synth", folder, "--scene", scene, "--frames", arguments.synth_frames, "--size",
-                  arguments.synth_size, "--loops", 1, "--noise", "--blur", "--force")
+    """A synthetic recording; one that is there from the same options is taken again."""
+    folder = work / f"synth-{arguments.name or scene}"
+    options = ["--scene", scene, "--frames", str(arguments.synth_frames), "--size", arguments.synth_size,
+               *shlex.split(arguments.synth_options)]
+    mark = Path(f"{folder}.json")
+    if mark.is_file() and json.loads(mark.read_text()) == options and (folder / "rgb.txt").is_file():
+        return folder
+    mark.unlink(missing_ok=True)
+    result = call(arguments, "unisim-synth", folder, *options, "--force")
     if result.returncode != 0:
         raise Failure(result.returncode, last_line(result))
+    mark.write_text(json.dumps(options))
     return folder
 
 
-def protocol(arguments, offsets):
+def protocol(arguments, jobs):
     version = call(arguments, "unisim-replay", "--version").stdout.strip()
     cpu = next((text.split(":", 1)[1].strip() for text in Path("/proc/cpuinfo").read_text().splitlines()
                 if text.startswith("model name")), platform.processor()) if Path("/proc/cpuinfo").is_file() else ""
-    return {"program": version, "predictor": " ".join([arguments.predictor, *arguments.extra]),
-            "frames": f"[{arguments.first}, {arguments.last if arguments.last >= 0 else 'end'})",
-            "first frames": ", ".join(map(str, offsets)) + "; figures are medians of these runs",
+
+    def of_jobs(text):
+        return "; ".join(dict.fromkeys(text(job) for job in jobs))
+
+    return {"program": version, "predictor": of_jobs(lambda job: " ".join([job.predictor, *job.extra])),
+            "frames": of_jobs(lambda job: f"[{job.first}, {job.last if job.last >= 0 else 'end'})"),
+            "first frames": of_jobs(lambda job: job.offsets) + "; figures are medians of these runs",
             "alignment": "Sim(3) on keyframes, the longest segment and all together",
-            "ground truth": arguments.ground_truth or "groundtruth.txt of each recording, nearest in time",
+            "ground truth": of_jobs(lambda job: job.ground_truth or "of each recording") + ", nearest in time",
             "machine": f"{cpu}, {os.cpu_count()} cores, {platform.system()} {platform.machine()}"}
 
 
@@ -292,26 +226,43 @@ def read_table(path):
     raise Failure(3, f"{path}: not a table.json of this program")
 
 
+def rows_of(arguments, out, work):
+    """One for each recording and condition; what fails has a problem in place of figures."""
+    recordings = [(path, arguments.name or path.name, None) for path in arguments.paths]
+    recordings += [(None, arguments.name or f"synth-{scene}", scene) for scene in arguments.scenes]
+    for path, shown, scene in recordings:
+        recording = problem = None
+        try:
+            recording = Recording(arguments, path or render(arguments, scene, work), work / "made")
+            if not len(recording.truth):
+                print(f"benchmark: {path}: no ground truth in TUM format, no errors; give --ground-truth",
+                      file=sys.stderr)
+        except Failure as failure:
+            problem = str(failure)
+        for name in arguments.wanted:
+            row = {"recording": shown, "condition": name}
+            try:
+                row |= measure(arguments, recording, name, out) if recording else {"runs": 0, "problem": problem}
+            except Failure as failure:
+                row |= {"runs": 0, "problem": str(failure)}
+            print(f"{shown} {name}: {row.get('problem', 'done')}", file=sys.stderr)
+            yield row
+
+
 def benchmark(arguments):
     if arguments.list:
         print("\n".join(f"{name:13} {condition.text}" for name, condition in CONDITIONS.items()))
-        return
-    wanted, offsets, paths = checked(arguments)
+        return 0
+    jobs = jobs_of(arguments)
     earlier = read_table(arguments.compare) if arguments.compare else None
     out = Path(arguments.out)
     work = Path(arguments.work) if arguments.work else out / "recordings"
     for folder in (out, work):
         folder.mkdir(parents=True, exist_ok=True)
-    scenes = names_or_file(arguments.synth) if arguments.synth else []
-    paths += [render(arguments, scene, work) for scene in scenes]
-    table = {"schema": 1, "protocol": protocol(arguments, offsets), "rows": []}
-    for path in paths:
-        recording = Recording(arguments, path, work / "made")
-        if not len(recording.truth):
-            print(f"benchmark: {path}: no ground truth in TUM format, no errors; give --ground-truth", file=sys.stderr)
-        for name in wanted:
-            table["rows"].append(measure(arguments, recording, name, offsets, out))
-            print(f"{recording.name} {name} done", file=sys.stderr)
+    table = {"schema": 1, "protocol": protocol(arguments, jobs), "rows": []}
+    for job in jobs:
+        for row in rows_of(job, out, work):
+            table["rows"].append(row)
             (out / "table.json").write_text(json.dumps(table, indent=1) + "\n")
     if arguments.store:
         Path(arguments.store).write_text(json.dumps(table, indent=1) + "\n")
@@ -320,18 +271,18 @@ def benchmark(arguments):
         text += "\n" + comparison_text(table, earlier, arguments.worse)
     (out / "table.md").write_text(text)
     print(text, end="")
+    return 1 if any("problem" in row for row in table["rows"]) else 0
 
 
 def main():
     try:
-        benchmark(parse_arguments(sys.argv[1:]))
+        return benchmark(parse_arguments(sys.argv[1:]))
     except Failure as failure:
         print(f"benchmark: {failure}", file=sys.stderr)
         return failure.code
     except OSError as problem:
         print(f"benchmark: {problem}", file=sys.stderr)
         return 4
-    return 0
 
 
 if __name__ == "__main__":

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Hard conditions for benchmark.py: each makes of a recording one that is worse in one respect.
 
-A condition yields (image, index): BGR pixels and the frame of the recording whose pose they have, None
-where no pose is to be compared. Frames follow each other at the recording's own rate unless it says else.
+What a condition makes are pairs (image, index): BGR pixels and the frame of the recording whose pose they have,
+None where no pose is to be compared. One that makes nothing takes the recording as it is. Frames follow each other at the recording's own rate unless it says else.
 Sizes in pixels are of a 640 pixel wide image and scale with the width. The seeds are fixed: the same
 recording gives the same images.
 """
 from dataclasses import dataclass, field
-from typing import Callable
+from typing import Callable, Optional
 
 import cv2
 import numpy as np
@@ -19,11 +19,12 @@ BORDER = 0.05          # of each side, cut off where the warped image has no con
 @dataclass
 class Condition:
     text: str
-    make: Callable
+    make: Optional[Callable] = None
     quality: int = 92             # of the JPEG files
     every: int = 1                # frames of the recording from one image to the next
     focal: float = 1.0            # of the images over that of the recording
-    replay: Callable = field(default=lambda focal: [])  # options of unisim-replay
+    given: Callable = field(default=lambda focal: [])  # what unisim-replay is told of the camera
+    needs_focal: bool = False     # a true one
 
 
 def clipped(pixels):
@@ -180,9 +181,9 @@ def known_lens(focal):
 
 
 CONDITIONS = {
-    "original": Condition("as it is", plain, 95),
-    "known-focal": Condition("as it is, focal length given", plain, 95,
-                             replay=lambda focal: ["--focal", f"{focal:.6g}"]),
+    "original": Condition("as it is"),
+    "known-focal": Condition("as it is, focal length given", needs_focal=True,
+                             given=lambda focal: ["--focal", f"{focal:.6g}"]),
     "half": Condition("half resolution", half, focal=0.5),
     "rate-5": Condition("every fifth frame", every_fifth, every=5),
     "flicker": Condition("gain and gamma flicker 25 %", flicker),
@@ -190,7 +191,7 @@ CONDITIONS = {
     "jpeg-20": Condition("JPEG quality 20", plain, 20),
     "noise": Condition("noise, sigma 12", noise),
     "barrel": Condition("barrel distortion, k1 -0.3", barrel),
-    "barrel-known": Condition("the same with the calibration given", barrel, replay=known_lens),
+    "barrel-known": Condition("the same with the calibration given", barrel, given=known_lens),
     "crop": Condition("cut to 16:9", crop),
     "occluder": Condition("a person walks through", occluder),
     "rolling": Condition("rolling shutter", rolling),

@@ -26,9 +26,8 @@ def table_text(table):
     out += [line(heads), "|" + "---|" * len(heads)]
     out += [line([row["recording"], row["condition"], *cells_of(row)]) for row in table["rows"]]
     problems = [row for row in table["rows"] if "problem" in row]
-    out += [f"\n{row['recording']} {row['condition']}: {row['failed']} runs failed: {row['problem']}"
-            for row in problems]
-    return "\n".join(out) + "\n"
+    out += ["", *(f"{row['recording']} {row['condition']} failed: {row['problem']}" for row in problems)]
+    return "\n".join(out).rstrip("\n") + "\n"
 
 
 def comparison_text(table, earlier, worse):
