@@ -28,7 +28,8 @@ extern "C" {
 typedef struct unisim_geometric_config {
   uint32_t struct_size;
   int32_t max_tracks;       /**< features followed at a time, 50..2000 (300) */
-  int32_t max_keyframes;    /**< kept in the state, the oldest is dropped first, 32..4096 (180) */
+  int32_t max_keyframes;    /**< kept in the state, 32..4096 (180); then those go whose landmarks
+                               others see */
   int32_t max_landmarks;    /**< kept in the state, at least 4 max_tracks (5000) */
   int32_t max_window_views; /**< views of given-out windows kept for revisions (512) */
   int32_t window_size;      /**< keyframes adjusted with each new one, 5..64 (16) */

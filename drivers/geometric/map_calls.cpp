@@ -11,7 +11,7 @@
 namespace unisim::geometric {
 namespace {
 
-constexpr uint32_t kMapVersion = 1;
+constexpr uint32_t kMapVersion = 2;
 constexpr int32_t kLeastSide = 64;  // pixels
 constexpr int32_t kMostSide = 16384;
 constexpr double kMostNumber = 1e9;
@@ -73,6 +73,10 @@ void archive_version(drivers::Archive* io) {
   if (io->reading() && version > kMapVersion) {
     io->fail("the map is of version " + std::to_string(version) + ", this program reads up to " +
              std::to_string(kMapVersion) + "; use a newer one");
+  }
+  if (version > 0 && version < kMapVersion) {
+    io->fail("the map is of version " + std::to_string(version) + ", this program reads " +
+             std::to_string(kMapVersion) + " only; map the place anew");
   }
   io->require(version == kMapVersion, "not one of a geometric predictor");
 }

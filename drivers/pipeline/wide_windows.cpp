@@ -11,6 +11,19 @@ namespace {
 // Few can end before the middle of the next; the session keeps what is forgotten here.
 constexpr size_t kMostKept = 8;
 constexpr int32_t kLeastViews = 2;  // of each of two segments
+constexpr int32_t kLeastKept = 3;   // views of a window
+
+/// The part of a window that the session still keeps: the predictor may remember longer.
+unisim_window_prediction from_keyframe(const unisim_window_prediction& window, int32_t first) {
+  const int32_t* end = window.keyframe_ids + window.count;
+  const auto gone = std::lower_bound(window.keyframe_ids, end, first) - window.keyframe_ids;
+  unisim_window_prediction out = window;
+  out.count -= static_cast<int32_t>(gone);
+  out.keyframe_ids += gone;
+  out.T_window_kf += gone;
+  out.depth += gone;
+  return out;
+}
 
 }  // namespace
 
@@ -53,11 +66,13 @@ bool WideWindows::joins(const unisim_window_prediction& window, const unisim_ses
   return true;
 }
 
-unisim_status WideWindows::take(const unisim_window_prediction& window, bool* taken) {
+unisim_status WideWindows::take(const unisim_window_prediction& predicted, bool* taken) {
   *taken = false;
   unisim_session_info info{};
   const unisim_status known = session_->get_info(&info);
   if (known != UNISIM_OK) return known;
+  const unisim_window_prediction window = from_keyframe(predicted, info.first_keyframe);
+  if (window.count < kLeastKept) return UNISIM_OK;
   Join join{};
   const bool joins_segments = joins(window, info, &join);
   const bool holds =

@@ -27,11 +27,11 @@ class WideWindows {
   /// One would be taken. Predictors are not asked before: a wide window costs them time.
   bool wanted() const;
 
-  /// For wanted() windows.
-  /// @param[out] taken false: the session keeps those keyframes no longer, has no room for loops or
+  /// For wanted() windows. Views that the session no longer keeps are left out.
+  /// @param[out] taken false: the session keeps too few of them, has no room for loops or
   ///             found the window too poor
   /// @return UNISIM_OK, or what ends the run
-  unisim_status take(const unisim_window_prediction& window, bool* taken);
+  unisim_status take(const unisim_window_prediction& predicted, bool* taken);
 
  private:
   struct Kept {

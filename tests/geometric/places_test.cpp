@@ -108,7 +108,7 @@ TEST_CASE("the list of places forgets keyframes that leave the state") {
     list.add(id, descriptor.data());
   }
   CHECK(list.query(6, descriptor.data(), 1, 1, 9).size() == 6);
-  list.forget_before(4);
+  list.keep({4, 5, 7});
   const auto& left = list.query(6, descriptor.data(), 1, 1, 9);
   REQUIRE(left.size() == 2);
   CHECK(std::min(left[0].id, left[1].id) == 4);

@@ -40,7 +40,7 @@ void BackgroundAdjustment::start(const State& state, int32_t keyframe, int itera
   loops_.swap(*loops);
   loops->clear();
   keyframes_.clear();
-  for (int32_t k = state.map.first_id(); k <= keyframe; ++k) {
+  for (const int32_t k : state.map.ids()) {
     const Keyframe& from = state.map.keyframe(k);
     if (from.posed && from.segment == state.segment) keyframes_.push_back(k);
   }
@@ -96,8 +96,9 @@ WorldMove BackgroundAdjustment::move_of_newest(const State& state) {
 }
 
 void BackgroundAdjustment::move_rest(const WorldMove& move, State* state) {
-  for (int32_t k = keyframes_.back() + 1; k < state->map.end_id(); ++k) {
-    Keyframe& later = state->map.keyframe(k);
+  const std::vector<int32_t>& ids = state->map.ids();
+  for (auto k = std::upper_bound(ids.begin(), ids.end(), keyframes_.back()); k != ids.end(); ++k) {
+    Keyframe& later = state->map.keyframe(*k);
     if (!later.posed) continue;
     later.pose = move.apply(later.pose);
   }
@@ -150,7 +151,7 @@ bool BackgroundAdjustment::merge(State* state) {
   take_loops(state);
   std::vector<int32_t>& all = keyframes_;
   all.clear();
-  for (int32_t k = state->map.first_id(); k < state->map.end_id(); ++k) {
+  for (const int32_t k : state->map.ids()) {
     const Keyframe& from = state->map.keyframe(k);
     if (from.posed && from.segment == state->segment) all.push_back(k);
   }

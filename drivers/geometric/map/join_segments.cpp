@@ -6,7 +6,7 @@ namespace unisim::geometric {
 
 void join_segments(State* state, int32_t from, int32_t into, const WorldMove& move) {
   LandmarkMap& map = state->map;
-  for (int32_t k = map.first_id(); k < map.end_id(); ++k) {
+  for (const int32_t k : map.ids()) {
     Keyframe& keyframe = map.keyframe(k);
     if (keyframe.segment != from) continue;
     keyframe.segment = into;

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 
+#include "drivers/geometric/map/least_needed.hpp"
+
 namespace unisim::geometric {
 
 LandmarkMap::LandmarkMap(const MapCapacity& capacity)
     : per_keyframe_(static_cast<size_t>(capacity.observations_per_keyframe)),
+      slots_(capacity.keyframes),
       keyframes_(static_cast<size_t>(capacity.keyframes)),
       observations_(static_cast<size_t>(capacity.keyframes) * per_keyframe_),
       landmarks_(static_cast<size_t>(capacity.landmarks)) {
@@ -17,7 +20,8 @@ LandmarkMap::LandmarkMap(const MapCapacity& capacity)
 }
 
 Keyframe& LandmarkMap::push_keyframe(int32_t id, int32_t segment) {
-  if (end_id_ - first_id_ == static_cast<int32_t>(keyframes_.size())) drop_oldest_keyframe();
+  if (slots_.full()) drop_keyframe(least_needed_keyframe(*this));
+  slots_.take(id);
   end_id_ = id + 1;
   Keyframe& added = keyframe(id);
   added = Keyframe{};
@@ -26,20 +30,26 @@ Keyframe& LandmarkMap::push_keyframe(int32_t id, int32_t segment) {
   return added;
 }
 
-void LandmarkMap::drop_oldest_keyframe() {
-  const int32_t id = first_id_++;
-  const Keyframe& oldest = keyframe(id);
-  for (int32_t i = 0; i < oldest.observations; ++i) {
-    const Observation& seen = observation(id, i);
-    if (seen.landmark < 0) continue;
-    // The oldest keyframe holds the first observation of every landmark seen in it.
-    Landmark& mark = landmark(seen.landmark);
-    mark.first = seen.next;
-    if (--mark.observations == 0) {
-      mark.last = ObservationRef{};
-      if (!mark.followed) free_landmark(seen.landmark);
-    }
+void LandmarkMap::drop_keyframe(int32_t id) {
+  for (int32_t i = 0; i < keyframe(id).observations; ++i) {
+    const int32_t slot = observation(id, i).landmark;
+    if (slot < 0) continue;
+    unlink({id, i});
+    if (landmark(slot).observations == 0 && !landmark(slot).followed) free_landmark(slot);
   }
+  slots_.drop(id);
+}
+
+void LandmarkMap::unlink(const ObservationRef& ref) {
+  Landmark& mark = landmark(observation(ref).landmark);
+  ObservationRef before;
+  for (ObservationRef at = mark.first; at.keyframe != ref.keyframe; at = observation(at).next) {
+    before = at;
+  }
+  const ObservationRef after = observation(ref).next;
+  (before.valid() ? observation(before).next : mark.first) = after;
+  if (!after.valid()) mark.last = before;
+  --mark.observations;
 }
 
 int32_t LandmarkMap::add_landmark(int32_t segment) {
@@ -148,7 +158,8 @@ int64_t LandmarkMap::bytes() const {
   return static_cast<int64_t>(keyframes_.capacity() * sizeof(Keyframe) +
                               observations_.capacity() * sizeof(Observation) +
                               landmarks_.capacity() * sizeof(Landmark) +
-                              (free_.capacity() + scratch_.capacity()) * sizeof(int32_t));
+                              (free_.capacity() + scratch_.capacity()) * sizeof(int32_t)) +
+         slots_.bytes();
 }
 
 }  // namespace unisim::geometric

@@ -9,6 +9,7 @@
 
 #include "drivers/common/archive.hpp"
 #include "drivers/geometric/bundle/camera_model.hpp"
+#include "drivers/geometric/map/keyframe_slots.hpp"
 
 namespace unisim::geometric {
 
@@ -68,11 +69,14 @@ class LandmarkMap {
  public:
   explicit LandmarkMap(const MapCapacity& capacity);
 
-  /// Appends keyframe `id` (one more than the last); the oldest goes when all places are taken.
+  /// Appends keyframe `id` (above all before it); when all places are taken the one that the others
+  /// can best do without goes (least_needed.hpp).
   Keyframe& push_keyframe(int32_t id, int32_t segment);
-  bool holds(int32_t id) const { return id >= first_id_ && id < end_id_; }
-  int32_t first_id() const { return first_id_; }  ///< oldest keyframe held
-  int32_t end_id() const { return end_id_; }      ///< one past the newest
+  bool holds(int32_t id) const { return slots_.find(id) >= 0; }
+  const std::vector<int32_t>& ids() const { return slots_.ids(); }  ///< held, ascending
+  int32_t end_id() const { return end_id_; }                        ///< one past the newest
+  /// Number below the capacity that no other held keyframe has.
+  size_t slot_of(int32_t id) const { return static_cast<size_t>(slots_.find(id)); }
   Keyframe& keyframe(int32_t id) { return keyframes_[slot_of(id)]; }
   const Keyframe& keyframe(int32_t id) const { return keyframes_[slot_of(id)]; }
 
@@ -141,17 +145,18 @@ class LandmarkMap {
   void archive_keyframe(drivers::Archive* io, int32_t id, int32_t segments);
   void archive_observation(drivers::Archive* io, Observation& seen) const;
   void load_observation(drivers::Archive* io);
-  size_t slot_of(int32_t id) const { return static_cast<size_t>(id) % keyframes_.size(); }
   bool full(int32_t id) const {
     return static_cast<size_t>(keyframe(id).observations) == per_keyframe_;
   }
   /// Puts an observation into keyframe `id`; it is not in the landmark's list yet.
   ObservationRef write(int32_t id, int32_t slot, const cv::Point2f& at);
-  void drop_oldest_keyframe();
+  void drop_keyframe(int32_t id);
+  /// Takes one observation out of its landmark's list.
+  void unlink(const ObservationRef& ref);
   void free_oldest_landmarks();
 
   size_t per_keyframe_;
-  int32_t first_id_ = 0;
+  KeyframeSlots slots_;
   int32_t end_id_ = 0;
   std::vector<Keyframe> keyframes_;
   std::vector<Observation> observations_;

@@ -45,8 +45,7 @@ void LandmarkMap::archive(drivers::Archive* io, int32_t segments) {
   io->require(count >= 0, "their number is out of range");
   for (int32_t slot = 0; slot < count; ++slot) archive_landmark(io, slot, segments);
   io->part("keyframes");
-  int32_t held = end_id_ - first_id_;
-  io->number(first_id_, 0, drivers::kMostKeyframeId);
+  auto held = static_cast<int32_t>(ids().size());
   io->number(held);
   const auto most = static_cast<int32_t>(keyframes_.size());
   if (io->reading() && held > most) {
@@ -55,8 +54,10 @@ void LandmarkMap::archive(drivers::Archive* io, int32_t segments) {
   }
   io->require(held >= 1, "there are none");
   for (int32_t k = 0; k < held; ++k) {
-    if (io->reading()) push_keyframe(first_id_ + k, 0);
-    archive_keyframe(io, first_id_ + k, segments);
+    int32_t id = io->reading() ? 0 : ids()[static_cast<size_t>(k)];
+    io->number(id, io->reading() ? end_id_ : 0, drivers::kMostKeyframeId);
+    if (io->reading()) push_keyframe(id, 0);
+    archive_keyframe(io, id, segments);
   }
   if (!io->reading()) return;
   free_.clear();

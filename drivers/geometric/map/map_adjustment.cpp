@@ -55,6 +55,7 @@ void MapAdjustment::collect_landmarks(const State& state, const int32_t* ids, si
 
 void MapAdjustment::add_cameras(const State& state, const int32_t* ids, size_t count) {
   std::fill(camera_of_.begin(), camera_of_.end(), kNoCamera);
+  const auto place = [&](int32_t keyframe) { return state.map.slot_of(keyframe); };
   for (size_t k = 0; k < count; ++k) camera_of_[place(ids[k])] = kFreeCamera;
   for (const int32_t slot : wanted_) {
     const ObservationRef anchor = state.map.anchor(slot);
@@ -62,7 +63,7 @@ void MapAdjustment::add_cameras(const State& state, const int32_t* ids, size_t c
       camera_of_[place(anchor.keyframe)] = kFixedCamera;
     }
   }
-  for (int32_t id = state.map.first_id(); id < state.map.end_id(); ++id) {
+  for (const int32_t id : state.map.ids()) {
     int32_t& camera = camera_of_[place(id)];
     if (camera == kNoCamera) continue;
     camera = problem_.add_camera(state.map.keyframe(id).pose, camera == kFixedCamera);
@@ -81,7 +82,8 @@ void MapAdjustment::add_landmark(const State& state, int32_t slot,
   // Cameras of a point come in ascending order; one that sees it anyway keeps what it sees.
   const auto add_loops_before = [&](int32_t keyframe) {
     for (; again != loops.end() && again->landmark == slot && again->keyframe < keyframe; ++again) {
-      const int32_t camera = camera_of_[place(again->keyframe)];
+      if (!state.map.holds(again->keyframe)) continue;
+      const int32_t camera = camera_of_[state.map.slot_of(again->keyframe)];
       if (camera < 0 || again->generation != mark.generation) continue;
       const cv::Point2f& at = again->point;
       views += problem_.add_observation(camera, at.x, at.y, 1.0) ? 1 : 0;
@@ -89,7 +91,7 @@ void MapAdjustment::add_landmark(const State& state, int32_t slot,
   };
   state.map.for_each_observation(slot, [&](const ObservationRef& ref, const Observation& seen) {
     add_loops_before(ref.keyframe);
-    const int32_t camera = camera_of_[place(ref.keyframe)];
+    const int32_t camera = camera_of_[state.map.slot_of(ref.keyframe)];
     if (camera < 0 || !state.map.counts(ref)) return;
     views += problem_.add_observation(camera, seen.x, seen.y, 1.0) ? 1 : 0;
   });
@@ -111,8 +113,9 @@ BundleResult MapAdjustment::solve(int iterations, double tolerance) {
 BundlePrecision MapAdjustment::precision(const int32_t* ids, size_t count) {
   camera_scratch_.clear();
   for (size_t k = 0; k < count; ++k) {
-    const int32_t camera = camera_of_[place(ids[k])];
-    if (camera >= 0) camera_scratch_.push_back(camera);
+    const auto found = std::lower_bound(keyframes_.begin(), keyframes_.end(), ids[k]);
+    if (found == keyframes_.end() || *found != ids[k]) continue;
+    camera_scratch_.push_back(static_cast<int32_t>(found - keyframes_.begin()));
   }
   return adjuster_.precision(problem_, options_, camera_scratch_.data(),
                              static_cast<int>(camera_scratch_.size()));

@@ -42,7 +42,6 @@ class MapAdjustment {
   void collect_landmarks(const State& state, const int32_t* ids, size_t count);
   void add_cameras(const State& state, const int32_t* ids, size_t count);
   void add_landmark(const State& state, int32_t slot, const std::vector<LoopObservation>& loops);
-  size_t place(int32_t keyframe) const { return static_cast<size_t>(keyframe) % camera_of_.size(); }
 
   BundleProblem problem_;
   BundleAdjuster adjuster_;
@@ -51,7 +50,7 @@ class MapAdjustment {
   std::vector<int32_t> landmarks_;     // of each point
   std::vector<uint32_t> generations_;  // of each point's landmark
   std::vector<int32_t> wanted_;        // landmarks to add
-  std::vector<int32_t> camera_of_;     // by keyframe place, -1: none
+  std::vector<int32_t> camera_of_;     // by slot of the keyframe, -1: none
   std::vector<uint8_t> marked_;        // by landmark: in wanted_
   std::vector<int32_t> camera_scratch_;
 };

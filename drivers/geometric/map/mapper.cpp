@@ -136,7 +136,6 @@ bool Mapper::add_keyframe(int32_t id) {
 
 void Mapper::try_start(int32_t id) {
   state_.map.push_keyframe(id, state_.segment);
-  state_.segment_start = std::max(state_.segment_start, state_.map.first_id());
   observe_tracks(0);
   detect_tracks();
   state_.posed = 0;
@@ -222,7 +221,7 @@ void Mapper::recover(int32_t id, const CameraPose& near) {
 void Mapper::adjust_whole(int32_t id) {
   if (state_.config.adjust_every == 0 || background_.running()) return;
   if (join(id) || state_.early()) return;
-  const int32_t held = std::min(state_.posed, state_.map.end_id() - state_.map.first_id());
+  const int32_t held = std::min(state_.posed, static_cast<int32_t>(state_.map.ids().size()));
   const int32_t gap = std::max(state_.config.adjust_every, held / kWholeGapShare);
   const bool loop = places_.loops().waiting(state_.segment);
   if (state_.posed < adjusted_posed_ + (loop ? kLoopGap : gap)) return;
@@ -239,7 +238,7 @@ bool Mapper::join(int32_t id) {
   const int32_t from = older ? present : found.segment;
   int32_t others = 0;
   joined_ids_.clear();
-  for (int32_t k = state_.map.first_id(); k < state_.map.end_id(); ++k) {
+  for (const int32_t k : state_.map.ids()) {
     const Keyframe& held = state_.map.keyframe(k);
     if (held.posed && held.segment == from) joined_ids_.push_back(k);
     others += held.posed && held.segment == found.segment ? 1 : 0;
@@ -331,7 +330,7 @@ void Mapper::note_motion(int32_t id) {
       ++counts_.rotation_only;
     }
   }
-  for (int32_t k = state_.map.first_id(); k < id; ++k) {
+  for (const int32_t k : state_.map.ids()) {
     const Keyframe& first = state_.map.keyframe(k);
     if (!first.posed || first.segment != state_.segment) continue;
     state_.intrinsics.note_rotation(angle_between(pose.R, first.pose.R));

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The map as it is saved: what a later run needs to find itself in it and to go on.
+#include <algorithm>
+
 #include "drivers/geometric/map/mapper.hpp"
 
 namespace unisim::geometric {
@@ -10,10 +12,9 @@ constexpr double kMostDepth = 1e9;  // units of the map
 }  // namespace
 
 bool Mapper::has_map() const {
-  for (int32_t k = state_.map.first_id(); k < state_.map.end_id(); ++k) {
-    if (state_.map.keyframe(k).posed) return true;
-  }
-  return false;
+  const std::vector<int32_t>& ids = state_.map.ids();
+  return std::any_of(ids.begin(), ids.end(),
+                     [this](int32_t k) { return state_.map.keyframe(k).posed; });
 }
 
 void Mapper::archive(drivers::Archive* io) {
@@ -23,12 +24,13 @@ void Mapper::archive(drivers::Archive* io) {
   io->number(state_.median_depth, 0.0, kMostDepth);
   state_.map.archive(io, state_.segments);
   archive_looks(io);
-  places_.archive_keyframes(io, state_.map.first_id(), state_.map.end_id());
+  places_.archive_keyframes(io, state_.map.ids());
   if (!io->reading()) return;
   io->require(has_map(), "no keyframe has a pose");
-  int32_t newest = state_.map.end_id() - 1;
-  while (!state_.map.keyframe(newest).posed) --newest;
-  state_.enter(state_.map.keyframe(newest).segment);
+  const std::vector<int32_t>& ids = state_.map.ids();
+  const auto newest = std::find_if(ids.rbegin(), ids.rend(),
+                                   [this](int32_t k) { return state_.map.keyframe(k).posed; });
+  state_.enter(state_.map.keyframe(*newest).segment);
   state_.initialised = true;
   lost_intrinsics_ = state_.intrinsics;
   counts_.started = 1;

@@ -53,7 +53,7 @@ void State::enter(int32_t older_segment) {
   segment = older_segment;
   segment_start = map.end_id();
   posed = 0;
-  for (int32_t k = map.first_id(); k < map.end_id(); ++k) {
+  for (const int32_t k : map.ids()) {
     const Keyframe& held = map.keyframe(k);
     if (held.segment != segment) continue;
     segment_start = std::min(segment_start, k);
@@ -62,10 +62,18 @@ void State::enter(int32_t older_segment) {
 }
 
 bool State::other_segments() const {
-  for (int32_t k = map.first_id(); k < map.end_id(); ++k) {
-    if (map.keyframe(k).posed && map.keyframe(k).segment != segment) return true;
+  return std::any_of(map.ids().begin(), map.ids().end(), [this](int32_t k) {
+    return map.keyframe(k).posed && map.keyframe(k).segment != segment;
+  });
+}
+
+int32_t State::posed_before(int32_t id, int32_t of_segment) const {
+  const std::vector<int32_t>& ids = map.ids();
+  for (auto after = std::lower_bound(ids.begin(), ids.end(), id); after != ids.begin(); --after) {
+    const Keyframe& before = map.keyframe(*(after - 1));
+    if (before.posed && before.segment == of_segment) return before.id;
   }
-  return false;
+  return -1;
 }
 
 double reprojection_error(const State& state, const Observation& seen, const Keyframe& from,

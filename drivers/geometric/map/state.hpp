@@ -57,12 +57,9 @@ struct State {
 
   bool early() const { return posed <= kEarlyKeyframes; }
   /// Newest posed keyframe of the segment before `id`, -1 if none.
-  int32_t posed_before(int32_t id) const {
-    for (int32_t k = id - 1; k >= segment_start && map.holds(k); --k) {
-      if (map.keyframe(k).posed && map.keyframe(k).segment == segment) return k;
-    }
-    return -1;
-  }
+  int32_t posed_before(int32_t id) const { return posed_before(id, segment); }
+  /// The same of any segment.
+  int32_t posed_before(int32_t id, int32_t of_segment) const;
 };
 
 /// Reprojection error of an observation in undistorted pixels; infinite behind the camera.

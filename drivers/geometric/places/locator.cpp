@@ -31,7 +31,7 @@ int32_t Locator::nearest_keyframe(const State& state) const {
   const double unit = state.median_depth > 0 ? state.median_depth : 1;
   int32_t nearest = -1;
   double least = std::numeric_limits<double>::infinity();
-  for (int32_t k = state.map.first_id(); k < state.map.end_id(); ++k) {
+  for (const int32_t k : state.map.ids()) {
     const Keyframe& held = state.map.keyframe(k);
     if (!held.posed || held.segment != segment_) continue;
     const double apart = (held.pose.center() - expected_.center()).norm() / unit +

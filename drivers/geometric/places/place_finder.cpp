@@ -43,7 +43,7 @@ void PlaceFinder::see(const cv::Mat& gray, int32_t id) {
 }
 
 void PlaceFinder::add(const State& state) {
-  list_.forget_before(state.map.first_id());
+  list_.keep(state.map.ids());
   if (describable_) list_.add(seen_, descriptor_.data());
 }
 
@@ -51,7 +51,7 @@ bool PlaceFinder::find(const State& state, const DescriptorStore& store, const P
                        const PreparedImage& current, const Question& question, PlaceFound* out,
                        drivers::PlaceReports* log) {
   if (!describable_) return false;
-  list_.forget_before(state.map.first_id());
+  list_.keep(state.map.ids());
   int32_t tried = 0;
   for (const unisim_places_match& match :
        list_.query(seen_, descriptor_.data(), question.gap, kSpread, config_.max_keyframes)) {

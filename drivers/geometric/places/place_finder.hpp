@@ -51,7 +51,7 @@ class PlaceFinder {
                  PlaceFound* out);
 
   /// See PlaceList::archive().
-  void archive(drivers::Archive* io, int32_t first, int32_t end) { list_.archive(io, first, end); }
+  void archive(drivers::Archive* io, const std::vector<int32_t>& held) { list_.archive(io, held); }
 
   Orb& orb() { return orb_; }
   int64_t bytes() const;

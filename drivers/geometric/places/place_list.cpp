@@ -12,13 +12,25 @@ PlaceList::PlaceList(int32_t keyframes)
 void PlaceList::add(int32_t keyframe, const int8_t* descriptor) {
   // Refused where there is nothing to see; such a keyframe is found by nothing.
   if (!places_.add(keyframe, descriptor)) return;
-  entry(keyframe).keyframe = keyframe;
-  std::copy(descriptor, descriptor + kVladSize, entry(keyframe).descriptor.begin());
+  Entry* place = find(kFree);
+  place->keyframe = keyframe;
+  std::copy(descriptor, descriptor + kVladSize, place->descriptor.begin());
 }
 
-void PlaceList::forget_before(int32_t first) {
-  // Not every keyframe was added.
-  for (; first_ < first; ++first_) places_.remove(first_);
+void PlaceList::keep(const std::vector<int32_t>& held) {
+  for (Entry& place : entries_) {
+    if (place.keyframe == kFree) continue;
+    if (std::binary_search(held.begin(), held.end(), place.keyframe)) continue;
+    places_.remove(place.keyframe);
+    place.keyframe = kFree;
+  }
+}
+
+PlaceList::Entry* PlaceList::find(int32_t keyframe) {
+  const auto found = std::find_if(entries_.begin(), entries_.end(), [keyframe](const Entry& place) {
+    return place.keyframe == keyframe;
+  });
+  return found == entries_.end() ? nullptr : &*found;
 }
 
 const std::vector<unisim_places_match>& PlaceList::query(int32_t id, const int8_t* descriptor,
@@ -32,19 +44,18 @@ const std::vector<unisim_places_match>& PlaceList::query(int32_t id, const int8_
   return places_.query(question, most);
 }
 
-void PlaceList::archive(drivers::Archive* io, int32_t first, int32_t end) {
+void PlaceList::archive(drivers::Archive* io, const std::vector<int32_t>& held) {
   io->part("places");
-  for (int32_t id = first; id < end; ++id) {
-    bool kept = entry(id).keyframe == id;
+  for (const int32_t id : held) {
+    Entry* place = find(io->reading() ? kFree : id);
+    bool kept = !io->reading() && place != nullptr;
     io->flag(kept);
     if (!kept) continue;
-    Entry& place = entry(id);
-    io->bytes(place.descriptor.data(), place.descriptor.size());
+    io->bytes(place->descriptor.data(), place->descriptor.size());
     if (!io->reading()) continue;
-    place.keyframe = id;
-    io->require(places_.add(id, place.descriptor.data()), "a descriptor is none");
+    place->keyframe = id;
+    io->require(places_.add(id, place->descriptor.data()), "a descriptor is none");
   }
-  if (io->reading()) first_ = first;
 }
 
 }  // namespace unisim::geometric

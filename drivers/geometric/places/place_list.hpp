@@ -19,29 +19,27 @@ class PlaceList {
 
   /// @param descriptor of describe_image()
   void add(int32_t keyframe, const int8_t* descriptor);
-  /// Keyframes before `first` are no longer in the state.
-  void forget_before(int32_t first);
+  /// Keeps those of these keyframes, ascending, which the state holds.
+  void keep(const std::vector<int32_t>& held);
   /// The keyframes most like a descriptor, at least `gap` from keyframe `id` and `spread` apart.
   const std::vector<unisim_places_match>& query(int32_t id, const int8_t* descriptor, int32_t gap,
                                                 int32_t spread, int32_t most);
-  /// Saves or loads the places. @param first, end keyframes that the state holds
-  void archive(drivers::Archive* io, int32_t first, int32_t end);
+  /// Saves or loads the places. @param held keyframes that the state holds
+  void archive(drivers::Archive* io, const std::vector<int32_t>& held);
   int64_t bytes() const {
     return places_.bytes() + static_cast<int64_t>(entries_.size() * sizeof(Entry));
   }
 
  private:
+  static constexpr int32_t kFree = -1;
   struct Entry {
-    int32_t keyframe = -1;
+    int32_t keyframe = kFree;
     std::array<int8_t, kVladSize> descriptor{};
   };
-  Entry& entry(int32_t keyframe) {
-    return entries_[static_cast<size_t>(keyframe) % entries_.size()];
-  }
+  Entry* find(int32_t keyframe);
 
   drivers::PlaceStore places_;
   std::vector<Entry> entries_;  // what was added: an index is not read out again
-  int32_t first_ = 0;
 };
 
 }  // namespace unisim::geometric

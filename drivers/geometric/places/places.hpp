@@ -48,9 +48,9 @@ class Places {
   void archive_landmark(drivers::Archive* io, int32_t landmark, uint32_t generation) {
     store_.archive(io, landmark, generation);
   }
-  /// Saves or loads what the keyframes look like. @param first, end that the state holds
-  void archive_keyframes(drivers::Archive* io, int32_t first, int32_t end) {
-    finder_.archive(io, first, end);
+  /// Saves or loads what the keyframes look like. @param held keyframes that the state holds
+  void archive_keyframes(drivers::Archive* io, const std::vector<int32_t>& held) {
+    finder_.archive(io, held);
   }
 
  private:

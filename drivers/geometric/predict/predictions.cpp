@@ -17,12 +17,8 @@ constexpr size_t kLeastWideViews = 3;
 /// was lost between and found again at j.
 int32_t before_gap(const State& state, int32_t i, int32_t j) {
   const Keyframe& found = state.map.keyframe(j);
-  if (!found.posed) return i;
-  for (int32_t k = i; state.map.holds(k); --k) {
-    const Keyframe& before = state.map.keyframe(k);
-    if (before.posed && before.segment == found.segment) return k;
-  }
-  return i;
+  const int32_t before = found.posed ? state.posed_before(i + 1, found.segment) : -1;
+  return before >= 0 ? before : i;
 }
 
 bool finite(const unisim_sim3& pose) {

@@ -152,8 +152,8 @@ void Bootstrap::set_unit(State* state, int32_t id) {
 
 void Bootstrap::adjust_posed(State* state, int iterations, double gate, MapAdjustment* adjustment) {
   posed_.clear();
-  for (int32_t k = state->segment_start; k < state->map.end_id(); ++k) {
-    if (state->map.holds(k) && state->map.keyframe(k).posed) posed_.push_back(k);
+  for (const int32_t k : state->map.ids()) {
+    if (k >= state->segment_start && state->map.keyframe(k).posed) posed_.push_back(k);
   }
   adjustment->build(*state, posed_.data(), posed_.size());
   adjustment->solve(iterations, kTolerance);
@@ -181,8 +181,8 @@ bool Bootstrap::adjust(State* state, int32_t id, MapAdjustment* adjustment, Land
   if (static_cast<double>(posed_.size()) < kMinPosedShare * (id - reference_ + 1)) return false;
   pose_before(state, poses);
   state->posed = 0;
-  for (int32_t k = state->segment_start; k <= id; ++k) {
-    state->posed += state->map.holds(k) && state->map.keyframe(k).posed ? 1 : 0;
+  for (const int32_t k : state->map.ids()) {
+    state->posed += k >= state->segment_start && state->map.keyframe(k).posed ? 1 : 0;
   }
   return true;
 }
