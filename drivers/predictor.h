@@ -192,6 +192,9 @@ typedef struct unisim_predictor_info {
   int32_t joined;         /**< segments that were joined to another one */
   double center_x_px; /**< last estimate of the principal point, from the middle of the image to */
   double center_y_px; /**< the right and down; 0, 0: the middle, or not known */
+  int32_t loops_undone; /**< of those accepted: hold the map no longer, since they do not agree with
+                           it. Filled by the pipeline for the loops it closes itself */
+  int32_t reserved;     /**< 0 */
 } unisim_predictor_info;
 
 /** A predictor. Free with destroy(predictor). Functions marked optional may be NULL. */

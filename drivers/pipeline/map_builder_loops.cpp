@@ -55,6 +55,8 @@ void MapBuilder::info(unisim_predictor_info* out) const {
   if (loops_ == nullptr) return;
   loops_->finish();
   loops_->info(out);
+  unisim_session_info map{};
+  if (parts_.session->get_info(&map) == UNISIM_OK) out->loops_undone = map.suspended_loops;
 }
 
 }  // namespace unisim::pipeline

@@ -198,6 +198,8 @@ TEST_CASE("a false loop that passes every look is undone by the map") {
   REQUIRE(false_loop);
   CHECK(result.predictor.loops_accepted > 5);
   CHECK(fooled.info().loop_suspensions >= 1);
+  CHECK(result.predictor.loops_undone == fooled.info().suspended_loops);
+  CHECK(result.predictor.loops_undone >= 1);
   CHECK(fooled.ate() < 1.5 * honest.ate());
 }
 

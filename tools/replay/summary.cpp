@@ -86,7 +86,7 @@ Json loops_json(const Run& run) {
   return {{"candidates", info.loops_tried},
           {"accepted", info.loops_accepted},
           {"rejected", info.loops_tried - info.loops_accepted},
-          {"undone", 0}};
+          {"undone", info.loops_undone}};
 }
 
 Json lanes_json(const pipeline::LaneReport& lanes) {
