@@ -7,18 +7,19 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <stdexcept>
 
 namespace unisim::testing {
 namespace {
 
-// Far beyond what any line takes; a hang must not stop the test run.
-constexpr int kPatienceMs = 60000;
+constexpr int kLookMs = 20;  // between two looks whether it has ended
 
 }  // namespace
 
-Child::Child(const std::vector<std::string>& command) {
+Child::Child(const std::vector<std::string>& command) : name_(command.at(0)) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   std::vector<char*> argv;
@@ -71,12 +72,32 @@ bool Child::wait_for(const std::string& begin, std::string* found) {
 
 void Child::send_signal(int signal) const { kill(pid_, signal); }
 
-int Child::end() {
-  while (!line().empty()) {
+int Child::end(int patience_ms) {
+  using Clock = std::chrono::steady_clock;
+  const auto until = Clock::now() + std::chrono::milliseconds(patience_ms);
+  for (bool open = true;;) {
+    const pid_t ended = waitpid(pid_, &status_, WNOHANG);
+    if (ended < 0 && errno != EINTR) throw std::runtime_error(name_ + " is no child");
+    if (ended == pid_) break;
+    if (Clock::now() > until) {
+      send_signal(SIGKILL);
+      waitpid(pid_, &status_, 0);
+      pid_ = -1;
+      throw std::runtime_error(name_ + " did not end within " + std::to_string(patience_ms) +
+                               " ms and was killed");
+    }
+    open = drain(open);
   }
-  waitpid(pid_, &status_, 0);
   pid_ = -1;
   return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+}
+
+bool Child::drain(bool open) {
+  pollfd waiting = {output_, POLLIN, 0};
+  // A closed pipe is always ready: it must not make this a busy loop.
+  if (poll(&waiting, open ? 1 : 0, kLookMs) <= 0) return open;
+  char bytes[4096];
+  return read(output_, bytes, sizeof bytes) > 0;
 }
 
 }  // namespace unisim::testing

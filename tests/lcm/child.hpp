@@ -22,10 +22,19 @@ class Child {
   /// Lines up to one that begins so. false: it never came
   bool wait_for(const std::string& begin, std::string* found = nullptr);
   void send_signal(int signal) const;
-  /// Waits for its end. @return exit code, 128 + n when signal n ended it
-  int end();
+  /// Waits for its end and throws away what it still says. @return exit code, 128 + n when signal n
+  /// ended it
+  /// Throws when it has not ended by then, after killing it.
+  int end(int patience_ms = kPatienceMs);
 
  private:
+  // Far beyond what any line takes; a hang must not stop the test run.
+  static constexpr int kPatienceMs = 60000;
+
+  /// Reads for a moment. @return whether there may be more
+  bool drain(bool open);
+
+  std::string name_;
   pid_t pid_ = -1;
   int output_ = -1;
   std::string rest_;

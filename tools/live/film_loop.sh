@@ -2,6 +2,15 @@
 # shellcheck shell=bash
 # Sourced by latency.sh and soak.sh.
 
+# Absolute path of the folder $1; ends with one line where there is none.
+folder_of_images() {
+  [ -d "$1" ] || {
+    echo "$(basename "$0" .sh): $1: no such folder" >&2
+    exit 3
+  }
+  realpath "$1"
+}
+
 # A sequence in TUM format at 30 frames a second: forwards, backwards, forwards, so that the camera never jumps.
 # $1: folder it is made in  $2: folder of images, an absolute path  $3: pattern of their names  $4: frames
 film_loop() {

@@ -19,7 +19,7 @@ if [ $# -eq 0 ] || [ "$1" = --help ]; then
 fi
 # shellcheck source-path=SCRIPTDIR source=film_loop.sh
 . "$(dirname "${BASH_SOURCE[0]}")/film_loop.sh"
-images=$(realpath "$1")
+images=$(folder_of_images "$1")
 seconds=${2:-60}
 build=${BUILD:-build/release}
 pattern=${PATTERN:-*.color.*}
