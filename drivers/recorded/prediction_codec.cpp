@@ -133,6 +133,9 @@ void encode_window(const unisim_window_prediction& window, RecordBytes* out) {
   out->pad();
   out->put_array(window.T_window_kf, count);
   for (std::size_t view = 0; view < count; ++view) encode_depth(window.depth[view], out);
+  if (window.metres_per_unit > 0.0) {
+    out->put(WindowUnit{window.metres_per_unit, window.metres_sigma, window.metres_common_sigma});
+  }
 }
 
 void encode_revision(const unisim_window_revision& revision, RecordBytes* out) {
@@ -181,17 +184,13 @@ Decoded decode_window(std::size_t size, DecodedArrays* arrays, unisim_window_pre
   if (!finite(numbers, 2) || !finite(poses, count)) {
     return fail(Decoded::kNotFinite, "pose, focal length or sigma is not a number", problem);
   }
-  *out = {window->count,
-          ids,
-          poses,
-          arrays->depth.data(),
-          window->focal_px,
-          window->center_sigma,
-          window->token,
-          nullptr,
-          0.0,
-          0.0,
-          0.0};
+  const WindowUnit* unit = cursor.take<WindowUnit>(1);
+  const WindowUnit known = unit != nullptr ? *unit : WindowUnit{};
+  const double lengths[] = {known.metres_per_unit, known.sigma, known.common_sigma};
+  if (!finite(lengths, 3)) return fail(Decoded::kNotFinite, "unit is not a number", problem);
+  *out = {window->count,        ids,           poses,   arrays->depth.data(),  window->focal_px,
+          window->center_sigma, window->token, nullptr, known.metres_per_unit, known.sigma,
+          known.common_sigma};
   return Decoded::kOk;
 }
 

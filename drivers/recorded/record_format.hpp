@@ -152,6 +152,13 @@ struct PairGap {
   std::int32_t reserved;
 };
 
+/// After the depth maps of a window whose unit is known in metres; others end there.
+struct WindowUnit {
+  double metres_per_unit;
+  double sigma;
+  double common_sigma;
+};
+
 /// Data of an answered window, before ids, poses and depth maps of its `count` views.
 struct WindowData {
   double focal_px;
@@ -190,6 +197,7 @@ static_assert(sizeof(PairKey) == 32 && sizeof(WindowKey) == 24 && sizeof(Revisio
 static_assert(sizeof(WideWindowKey) == 16 && sizeof(FramePoseKey) == 24 && sizeof(InfoKey) == 48 &&
               sizeof(EndKey) == 8);
 static_assert(sizeof(unisim_sim3) == 64 && sizeof(PairData) == 80 && sizeof(WindowData) == 32);
+static_assert(sizeof(WindowUnit) == 24);
 static_assert(sizeof(PlaceKey) == 24 && sizeof(PlaceData) == 16);
 static_assert(sizeof(RevisionData) == 16 && sizeof(DepthHead) == 16);
 

@@ -4,6 +4,7 @@
 import struct
 import tempfile
 import unittest
+from dataclasses import replace
 from pathlib import Path
 
 import setting  # noqa: F401
@@ -11,7 +12,8 @@ import numpy as np
 from contract.quantile import quantiles
 from exporters.cards import find_card
 from recording.predictor import Predictor, Rejected
-from unisim_record import PAIR, RecordWriter, read_header, read_records
+from record import write_window
+from unisim_record import PAIR, WINDOW, RecordWriter, read_header, read_records
 
 CARD = find_card("sta")
 SIDE = 32
@@ -62,6 +64,23 @@ class Quaternions(unittest.TestCase):
         for angle in np.linspace(-3.1, 3.1, 63):
             expected = [0, np.sin(angle / 2), 0, np.cos(angle / 2)]
             np.testing.assert_allclose(self.written(turn_about_y(angle)), expected, atol=1e-12)
+
+
+class Units(unittest.TestCase):
+    def test_the_windows_of_a_metric_model_say_that_they_are_in_metres(self):
+        for scale, end in (("metric", (1.0, 0.1, 0.05)), ("relative", None)):
+            model = Predictor(Model(), replace(CARD, scale=scale), (SIDE, SIDE), (SIDE, SIDE),
+                              lambda k: np.full((SIDE, SIDE, 3), k, np.uint8))
+            with tempfile.TemporaryDirectory() as folder:
+                path = str(Path(folder) / "window.usr")
+                with RecordWriter(path) as record:
+                    write_window(record, model, [0, 1])
+                with open(path, "rb") as file:
+                    read_header(file)
+                    data, = [data for _, kind, _, data in read_records(file) if kind == WINDOW]
+            self.assertEqual(model.unit, end)
+            if end is not None:
+                self.assertEqual(struct.unpack("<3d", data[-24:]), end)
 
 
 class Predictions(unittest.TestCase):

@@ -96,6 +96,9 @@ TEST_CASE("the library reads what Python wrote") {
   REQUIRE(window.count == 2);
   CHECK(window.keyframe_ids[1] == 2);
   CHECK(window.token == 77);
+  CHECK(window.metres_per_unit == 2.5);
+  CHECK(window.metres_sigma == 0.125);
+  CHECK(window.metres_common_sigma == 0.0625);
   CHECK(std::abs(window.T_window_kf[0].q[1]) == Approx(std::sin(1.55)).margin(1e-15));
   CHECK(window.depth[1].depth[2] == test_depth(2) + 1.0F);
 

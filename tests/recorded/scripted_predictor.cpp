@@ -106,9 +106,9 @@ int multi_view(unisim_predictor* predictor, const int32_t* ids, int32_t count,
           1.0 / 1024.0,
           100 + last,
           nullptr,
-          0.0,
-          0.0,
-          0.0};
+          last % 2 == 0 ? 1.0 / 3.0 : 0.0,  // every other one in metres
+          last % 2 == 0 ? 0.1 : 0.0,
+          last % 2 == 0 ? 0.05 : 0.0};
   return UNISIM_PREDICTION_OK;
 }
 

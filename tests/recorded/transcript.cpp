@@ -152,6 +152,9 @@ class Runner {
       line.add(window.focal_px);
       line.add(window.center_sigma);
       line.add(static_cast<double>(window.token));
+      line.add(window.metres_per_unit);
+      line.add(window.metres_sigma);
+      line.add(window.metres_common_sigma);
     }
     note(line, status, true);
   }

@@ -34,7 +34,7 @@ with RecordWriter(sys.argv[2], "séquence", "test-network", (320, 240)) as recor
                 focal_px=300.5, center_sigma=0.125)
     record.reject_pair(1, 2, "the network saw a wall")
     record.window([0, 1, 2], [pose(3.1, 1.0), pose(-3.1, 2.0)], [DEPTH, DEPTH + 1],
-                  solved_ids=[0, 2], token=77, at_keyframe=3)
+                  solved_ids=[0, 2], token=77, at_keyframe=3, unit=(2.5, 0.125, 0.0625))
     must_refuse(record.pair, 2, 3, np.full((4, 4), np.nan), DEPTH, DEPTH)
     must_refuse(record.pair, 2, 3, 2 * np.eye(4), DEPTH, DEPTH)
     must_refuse(record.keyframe, 9, 90)

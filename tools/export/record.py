@@ -127,7 +127,8 @@ def write_window(record: RecordWriter, predictor: Predictor, ids: List[int]) -> 
     except Rejected as error:
         record.reject_window(ids, str(error))
         return str(error)
-    record.window(ids, found.poses, found.depths, found.confidences, focal_px=found.focal_px)
+    record.window(ids, found.poses, found.depths, found.confidences, focal_px=found.focal_px,
+                  unit=predictor.unit)
     return None
 
 

@@ -236,10 +236,12 @@ class RecordWriter:
         self._append(PAIR, key, reason.encode("utf-8"))
 
     def window(self, ids, T_window_kf, depths, confidences=None, focal_px=0.0, center_sigma=0.0,
-               token=None, solved_ids=None, at_keyframe=None):
+               token=None, solved_ids=None, at_keyframe=None, unit=None):
         """Multi-view prediction of the keyframes `ids`, as the session asks for them.
 
-        One pose, depth and confidence per id, or per `solved_ids` where some views were lost."""
+        One pose, depth and confidence per id, or per `solved_ids` where some views were lost.
+        `unit`, of a network that knows metres: metres in a unit of the poses, the relative standard
+        deviation of this window, and that of what all windows share."""
         what = f"window {ids[0]}..{ids[-1]}"
         solved = list(ids) if solved_ids is None else list(solved_ids)
         confidences = [None] * len(solved) if confidences is None else confidences
@@ -257,6 +259,10 @@ class RecordWriter:
         data += _pad(struct.pack(f"<{len(solved)}i", *solved))
         data += b"".join(_pose_bytes(pose, what) for pose in T_window_kf)
         data += b"".join(_depth_bytes(d, c, what) for d, c in zip(depths, confidences))
+        if unit is not None:
+            metres, sigma, common_sigma = unit
+            _check_numbers(what, metres=metres, sigma=sigma, common_sigma=common_sigma)
+            data += struct.pack("<3d", metres, sigma, common_sigma)
         self._append(WINDOW, key, data)
 
     def reject_window(self, ids, reason, at_keyframe=None):

@@ -14,6 +14,12 @@ from contract.validate import MIN_POSE_CONFIDENCE, fault
 from recording.pixels import Unreadable
 
 
+# Of a model that predicts metres: relative standard deviation of a window, and of all together, as
+# drivers/onnx takes them.
+METRIC_SIGMA = 0.1
+METRIC_COMMON_SIGMA = 0.05
+
+
 class Rejected(Exception):
     """The prediction cannot be used; the text says why, in one line."""
 
@@ -42,6 +48,8 @@ class Predictor:
         self._load = load
         self._min_pose_confidence = min_pose_confidence
         self._inputs = {}
+        metric = card.scale == "metric"
+        self.unit = (1.0, METRIC_SIGMA, METRIC_COMMON_SIGMA) if metric else None
 
     def forget_before(self, keyframe: int) -> None:
         self._inputs = {k: value for k, value in self._inputs.items() if k >= keyframe}
