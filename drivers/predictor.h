@@ -50,10 +50,18 @@ extern "C" {
 #define UNISIM_REASON_DUPLICATE 5 /**< the same pixels as the frame before: nothing new */
 #define UNISIM_REASON_TIME_GAP 6  /**< much later after the frame before than usual */
 #define UNISIM_REASON_START 7     /**< no start found yet; a predictor does not give it */
-#define UNISIM_REASON_PREDICTION                                                             \
-  8                           /**< images look well, but the prediction was refused: see the \
-                                 messages; a predictor does not give it */
-#define UNISIM_REASON_COUNT 9 /**< one more than the last */
+#define UNISIM_REASON_PREDICTION                                   \
+  8 /**< images look well, but the prediction was refused: see the \
+       messages; a predictor does not give it */
+/* While there is no map yet: what the newest keyframe lacked for a start. */
+#define UNISIM_REASON_STILL 9     /**< hardly moved */
+#define UNISIM_REASON_TURNED 10   /**< only turned on the spot */
+#define UNISIM_REASON_PARALLAX 11 /**< moved too little for how far off all is */
+#define UNISIM_REASON_LOST_TRACKS                                                                \
+  12                               /**< too few features are still seen: keyframes too far apart \
+                                    */
+#define UNISIM_REASON_NOT_RIGID 13 /**< does not move as a rigid scene before one camera */
+#define UNISIM_REASON_COUNT 14     /**< one more than the last */
 
 /** What a frame says about the camera's motion. */
 typedef struct unisim_motion {

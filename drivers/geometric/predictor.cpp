@@ -78,6 +78,13 @@ bool accept_image(GeometricPredictor* me, const unisim_image& image) {
 
 namespace {
 
+/// What is wrong with the newest frame; where nothing is and there is no map yet, what is missing.
+int32_t reason_now(const Mapper& mapper) {
+  const int32_t reason = mapper.frame_reason();
+  if (reason != UNISIM_REASON_NONE || mapper.counts().started > 0) return reason;
+  return start_reason(mapper.start_statistics().newest);
+}
+
 int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motion* motion) {
   *motion = {-1.0, -1.0, 0, 0};
   return guarded(predictor, [&](GeometricPredictor* me) {
@@ -93,7 +100,7 @@ int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motio
     me->mapper->see(seen);
     const TrackMotion moved = me->mapper->motion();
     motion->tracked = moved.kept;
-    motion->reason = me->mapper->frame_reason();
+    motion->reason = reason_now(*me->mapper);
     if (moved.displacement_px < 0) return UNISIM_PREDICTION_OK;
     motion->flow = moved.displacement_px / std::hypot(me->size.width, me->size.height);
     if (motion->flow < kStaticFlow && moved.kept > kStaticKept) ++me->static_frames;

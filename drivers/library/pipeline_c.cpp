@@ -176,6 +176,7 @@ void unisim_pipeline::start() {
   thread = std::thread([this] {
     try {
       const auto& result = run->run();
+      if (result.predictor.no_start != nullptr) on_message(result.predictor.no_start);
       if (publisher != nullptr) publisher->finish();
       if (result.source_held) static_cast<void>(source.release());  // it may still come back
       if (map_to_save) save_map();

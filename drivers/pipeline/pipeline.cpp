@@ -3,11 +3,11 @@
 #include "drivers/pipeline/pipeline.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "drivers/pipeline/check_tables.hpp"
 #include "drivers/pipeline/frame_reader.hpp"
 #include "drivers/pipeline/localiser.hpp"
 #include "drivers/pipeline/map_builder.hpp"
@@ -17,6 +17,13 @@
 #include "drivers/pipeline/tracking_reason.hpp"
 
 namespace unisim::pipeline {
+namespace {
+
+// Frames after which a run without a start says why: a few seconds, and then more and more seldom.
+constexpr int64_t kNoStart = 100;
+constexpr int64_t kNoStartGrowth = 4;
+
+}  // namespace
 
 class Pipeline::Impl {
  public:
@@ -55,6 +62,7 @@ class Pipeline::Impl {
   bool went_well(Step step);
   void end(Outcome outcome, const std::string& message);
   void tell_progress();
+  void tell_no_start();
 
   Options options_;
   unisim_source* source_;
@@ -73,27 +81,9 @@ class Pipeline::Impl {
   unisim_session_info before_{};
   std::optional<Localiser> localiser_;  // with Options::localise
   int32_t next_live_ = 0;               // first keyframe whose live pose is not given out yet
+  bool posed_ = false;                  // there has been a pose
+  int64_t next_no_start_ = kNoStart;    // frames at which a run without a start says why
 };
-
-namespace {
-
-/// Tables of programs built against an older header than the first with places are refused.
-Preparation check_tables(const unisim_source& source, const unisim_predictor& predictor) {
-  const auto refuse = [](const std::string& why) {
-    return Preparation{Preparation::Answer::kBadConfiguration, why};
-  };
-  const char* const sizes = ": struct_size is not one this library knows; set it to sizeof";
-  if (source.struct_size < sizeof source) return refuse(std::string("source") + sizes);
-  if (predictor.struct_size < offsetof(unisim_predictor, place_descriptor))
-    return refuse(std::string("predictor") + sizes);
-  if (predictor.concurrent_windows != 0 && predictor.window_message == nullptr) {
-    return refuse(std::string(predictor.name) +
-                  " predictor: concurrent_windows needs a window_message()");
-  }
-  return {};
-}
-
-}  // namespace
 
 Preparation Pipeline::Impl::prepare() {
   Preparation preparation = check_tables(*source_, *predictor_);
@@ -220,6 +210,7 @@ bool Pipeline::Impl::track(const FrameReader::Item& item) {
     return true;
   }
   reason_.see_frame(motion.reason);
+  tell_no_start();
   // Frames given up for want of time do not count: a replay of those that were tracked chooses the
   // same keyframes.
   const bool own_pace = options_.live || options_.realtime;
@@ -301,7 +292,18 @@ void Pipeline::Impl::pose_between(const unisim_frame& frame) {
   give_out({frame.timestamp_ns, compose(pose.T_world_kf, between.T_kf_frame), -1});
 }
 
+/// While windows are asked for beside, a predictor cannot be asked how it stands.
+void Pipeline::Impl::tell_no_start() {
+  if (posed_ || result_.progress.frames < next_no_start_) return;
+  if (predictor_->concurrent_windows != 0) return;
+  next_no_start_ *= kNoStartGrowth;
+  unisim_predictor_info info{};
+  predictor_->info(predictor_, &info);
+  if (info.no_start != nullptr) messages_.say(info.no_start);
+}
+
 void Pipeline::Impl::give_out(const LivePose& pose) {
+  posed_ = true;
   for (Listener* listener : listeners_) listener->on_live_pose(pose);
 }
 

@@ -163,12 +163,15 @@ TEST_CASE("a camera at rest and one that turns are told apart, and a start ends 
   PredictorRun rest(default_config());
   rest.show_path([](int) { return walk(7); }, kFrames, kStride);
   CHECK(has(rest.info().no_start, "refused: 19 not enough motion; not enough motion"));
+  CHECK(rest.motion().reason == UNISIM_REASON_DUPLICATE);  // of the frame, before that of the start
   PredictorRun turned(default_config());
   turned.show_path(turn, 60, 3);
   CHECK(has(turned.info().no_start, "the camera only turned"));
+  CHECK(turned.motion().reason == UNISIM_REASON_TURNED);
   PredictorRun moved(default_config());
   moved.show_path(walk, 60, 3);
   CHECK(moved.info().no_start == nullptr);
+  CHECK(moved.motion().reason == UNISIM_REASON_NONE);
 }
 
 }  // namespace unisim::geometric::test

@@ -120,6 +120,23 @@ void publish_run(const TempFolder& folder) {
 
 }  // namespace
 
+TEST_CASE("a status says what a start lacks") {
+  const TempFolder folder;
+  const std::string log = folder / "told.lcm";
+  const ProgramResult run = run_replay({turned_sequence(), "--out", folder / "out", "--quiet",
+                                        "--lcm", "file://" + log + "?mode=w"});
+  INFO(run.err);
+  CHECK(run.code == 3);
+  CHECK(has(run.err, "no start"));
+  int32_t reason = 0;
+  for (const std::string& message : messages_on("UNISIM_STATUS", log)) {
+    unisim_status_t status = decoded(message, unisim_status_t_decode);
+    reason = status.reason;
+    unisim_status_t_decode_cleanup(&status);
+  }
+  CHECK(reason == UNISIM_STATUS_T_REASON_TURNED);
+}
+
 TEST_CASE("what unisim-replay publishes leads a consumer to the poses it writes") {
   const TempFolder folder;
   publish_run(folder);

@@ -132,6 +132,26 @@ TEST_CASE("poses and status say what is wrong with the frames") {
   CHECK(std::string(unisim_reason_name(77)).empty());
 }
 
+TEST_CASE("a run that finds no start says why: as reason of its state and in full") {
+  CRun run;
+  run.predictor.pending_until = 1000;
+  run.predictor.no_start = "no start: the camera only turned";
+  run.predictor.reasons = {{199, UNISIM_REASON_TURNED}};
+  unisim_pipeline* const pipeline = run.start();
+  REQUIRE(pipeline != nullptr);
+  CHECK(wait_for_end(pipeline) == UNISIM_PIPELINE_FINISHED);
+  unisim_pipeline_status status{};
+  status.struct_size = sizeof status;
+  unisim_pipeline_get_status(pipeline, &status);
+  CHECK(status.state == UNISIM_STATE_INIT);
+  CHECK(status.reason == UNISIM_REASON_TURNED);
+  CHECK(std::string(unisim_reason_name(status.reason)) == "no start yet: only turned");
+  REQUIRE(run.told.lines.size() >= 2);  // while it goes on, and at its end
+  CHECK(run.told.lines.front() == run.predictor.no_start);
+  CHECK(run.told.lines.back() == run.predictor.no_start);
+  unisim_pipeline_stop(pipeline);
+}
+
 TEST_CASE("corrections take the poses given out before to where they are now") {
   CRun run;
   run.predictor.window_noise = 0.02;

@@ -122,9 +122,11 @@ ScriptedPredictor::ScriptedPredictor() {
     self(p)->finished_ = true;
     return UNISIM_PREDICTION_OK;
   };
-  t.info = [](unisim_predictor*, unisim_predictor_info* out) {
+  t.info = [](unisim_predictor* p, unisim_predictor_info* out) {
+    const std::string& why = self(p)->no_start;
     *out = {};
-    out->initialised = 1;
+    out->initialised = why.empty() ? 1 : 0;
+    out->no_start = why.empty() ? nullptr : why.c_str();
   };
   t.message = [](unisim_predictor* p) { return self(p)->message_.c_str(); };
   t.window_message = t.message;

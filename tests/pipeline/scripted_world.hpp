@@ -82,6 +82,7 @@ class ScriptedPredictor {
   bool revises_early = false;     ///< not at finish(), but as soon as it is asked
   /// Called before a window is answered, with its first keyframe, on whatever thread asks.
   std::function<void(int32_t)> before_window;
+  std::string no_start;                ///< what info() says of a run without a start
   double flow = 0.0;                   ///< what observe() reports per frame since the last keyframe
   std::map<int64_t, int32_t> reasons;  ///< UNISIM_REASON_* that observe() gives, by frame
   std::vector<int64_t> keyframes;      ///< frame indices as told by keyframe()

@@ -163,6 +163,7 @@ int report_nothing(const pipeline::Result& result, const Options& options) {
       line = why_no_pose(result);
     }
   } else {
+    if (result.predictor.no_start != nullptr) line += "; " + why_no_pose(result);
     line += "; no pose was known yet, nothing is written";
   }
   say_problem(options, line);
@@ -287,6 +288,7 @@ int conclude(const pipeline::Result& result, const Options& options,
              std::initializer_list<std::string> problems) {
   int code = exit_code(result.outcome, options);
   if (!result.message.empty()) say_problem(options, result.message);
+  if (result.predictor.no_start != nullptr) say_problem(options, result.predictor.no_start);
   for (const std::string& problem : problems) {
     if (problem.empty()) continue;
     say_problem(options, problem);

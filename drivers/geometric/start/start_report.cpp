@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "drivers/predictor.h"
+
 namespace unisim::geometric {
 
 namespace {
@@ -25,26 +27,27 @@ constexpr double kMinFollowed = 0.4;
 
 struct Reason {
   StartOutcome outcome;
+  int32_t code;  // UNISIM_REASON_*
   const char* name;
   const char* advice;
 };
 
 constexpr Reason kReasons[] = {
-    {StartOutcome::kTooFewFeatures, "too few features",
+    {StartOutcome::kTooFewFeatures, UNISIM_REASON_TEXTURE, "too few features",
      "the images show too little texture (as depth images do): light the scene better, focus, look "
      "at more than bare "
      "surfaces"},
-    {StartOutcome::kTracksDie, "features lost between keyframes",
+    {StartOutcome::kTracksDie, UNISIM_REASON_LOST_TRACKS, "features lost between keyframes",
      "keyframes differ too much to follow features: lower --stride, move slower or record more "
      "frames per second"},
-    {StartOutcome::kNotMoving, "not enough motion",
+    {StartOutcome::kNotMoving, UNISIM_REASON_STILL, "not enough motion",
      "not enough motion between the images: move the camera sideways"},
-    {StartOutcome::kRotationOnly, "only turned",
+    {StartOutcome::kRotationOnly, UNISIM_REASON_TURNED, "only turned",
      "the camera only turned on the spot: move it sideways as well"},
-    {StartOutcome::kNoParallax, "too little parallax",
+    {StartOutcome::kNoParallax, UNISIM_REASON_PARALLAX, "too little parallax",
      "the camera hardly changed its place compared with the distance of what it sees: move it "
      "farther sideways"},
-    {StartOutcome::kNoGeometry, "no rigid scene",
+    {StartOutcome::kNoGeometry, UNISIM_REASON_NOT_RIGID, "no rigid scene",
      "the features do not move as a rigid scene does before one camera: cuts, keyframes too far "
      "apart (lower --stride), moving things, a fisheye lens or hardly any parallax do this"}};
 
@@ -130,6 +133,13 @@ std::string advice(const StartStatistics& seen) {
 }
 
 }  // namespace
+
+int32_t start_reason(StartOutcome outcome) {
+  for (const Reason& reason : kReasons) {
+    if (reason.outcome == outcome) return reason.code;
+  }
+  return UNISIM_REASON_NONE;
+}
 
 std::string start_report(const StartStatistics& seen, const cv::Size& size) {
   return "no start: " + what_was_seen(seen, size) + refusals(seen) + "; " + advice(seen);

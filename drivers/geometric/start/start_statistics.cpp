@@ -50,6 +50,7 @@ void StartStatistics::see_keyframe(const Tracks& tracks, size_t sealed, double p
 void StartStatistics::note_outcome(StartOutcome outcome, size_t count) {
   features += static_cast<int64_t>(count);
   ++outcomes[static_cast<size_t>(outcome)];
+  newest = outcome;
 }
 
 int StartStatistics::level(double share) const {

@@ -37,6 +37,7 @@ struct StartStatistics {
   int32_t halves_compared = 0;        ///< keyframes whose left and right halves were compared
   int32_t halves_alike = 0;
   std::array<int32_t, kStartOutcomes> outcomes{};
+  StartOutcome newest = StartOutcome::kFirst;
 
   /// @param gray the frame as it came
   void see_frame(const cv::Mat& gray);
