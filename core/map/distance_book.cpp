@@ -87,8 +87,8 @@ ScaleEvidence DistanceBook::measure(const Entry& entry) const {
   return {log_metres_per_unit(entry.distance.metres, p, q), 1.0 / variance};
 }
 
-void DistanceBook::remember(int32_t segment, double log_metres) {
-  memory_[remembered_ % kMemory] = {segment, log_metres};
+void DistanceBook::remember(int32_t segment, const ScaleEvidence& world) {
+  memory_[remembered_ % kMemory] = {segment, world};
   ++remembered_;
   if (remembered_ == 2 * kMemory) remembered_ = kMemory;
 }
@@ -97,19 +97,33 @@ bool DistanceBook::belongs(const Entry& entry, int32_t segment) const {
   return entry.submap >= 0 && map_.submaps[entry.submap].segment == segment;
 }
 
-/// What those around say, closed ones and open ones, in the world's unit. @return their number
+/// What is said of a segment, by closed ones and open ones, in the world's unit. @return their
+/// number
 int32_t DistanceBook::gather(int32_t segment) {
   int32_t count = 0;
-  for (const Remembered& old : memory_) {
-    if (old.segment == segment) values_[count++] = old.log_metres;
+  for (int32_t k = 0; k < kMemory; ++k) {
+    const Remembered& old = memory_[(remembered_ + k) % kMemory];
+    if (old.segment == segment) values_[count++] = old.world;
   }
   for (const Entry& entry : distances_) {
-    if (belongs(entry, segment) && entry.long_enough) values_[count++] = entry.log_metres;
+    if (belongs(entry, segment) && entry.long_enough) {
+      values_[count++] = {entry.log_metres, measure(entry).information};
+    }
   }
   return count;
 }
 
-/// Which of the open distances of a segment agree with those around them.
+/// What those before and after number `place` of the gathered ones say together with it. Not all of
+/// them: scale that drifts is no slip.
+Consensus DistanceBook::around(int32_t place, int32_t count) const {
+  const int32_t first = std::max(place - kAround, 0);
+  const int32_t end = std::min(place + kAround + 1, count);
+  ScaleEvidence near[2 * kAround + 1];
+  for (int32_t k = first; k < end; ++k) near[k - first] = values_[k];
+  return consensus_of({near, end - first});
+}
+
+/// How far the open distances of a segment agree with those around them.
 void DistanceBook::judge(int32_t segment) {
   for (Entry& entry : distances_) {
     if (!belongs(entry, segment)) continue;
@@ -117,21 +131,40 @@ void DistanceBook::judge(int32_t segment) {
     entry.long_enough = one.known();
     const Submap& submap = map_.submaps[entry.submap];
     entry.log_metres = one.log_metres - math::log(map_.submap_pose(submap).s);
+    entry.weight = 0.0;
   }
   const int32_t count = gather(segment);
-  if (count == 0) return;
-  const Consensus others = consensus_of(values_.subspan(0, count));
-  for (Entry& entry : distances_) {
-    if (!belongs(entry, segment)) continue;
-    entry.taken = entry.long_enough && others.accepts(entry.log_metres, measure(entry).information);
+  int32_t place = count;
+  for (int32_t k = distances_.size() - 1; k >= 0; --k) {
+    Entry& entry = distances_[k];
+    if (!belongs(entry, segment) || !entry.long_enough) continue;
+    --place;
+    entry.weight = around(place, count).weight(values_[place]);
   }
+}
+
+double DistanceBook::doubt(int32_t segment) const {
+  ScaleEvidence all;
+  ScaleEvidence weighted;
+  for (const Entry& entry : distances_) {
+    // One whose window has just left is closed by the next settle().
+    if (!is_open(entry.submap) || !belongs(entry, segment) || !entry.long_enough) continue;
+    const double information = measure(entry).information;
+    all = fuse(all, {entry.log_metres, information});
+    weighted = fuse(weighted, {entry.log_metres, information * entry.weight});
+  }
+  if (!weighted.known()) return 0.0;
+  const double moved = std::abs(all.log_metres - weighted.log_metres);
+  return 0.5 * std::max(0.0, moved - 1.0 / std::sqrt(all.information));
 }
 
 /// What the open distances of a window say together.
 void DistanceBook::open(int32_t submap) {
   int32_t count = 0;
   for (const Entry& entry : distances_) {
-    if (entry.submap == submap && entry.taken) group_[count++] = measure(entry);
+    if (entry.submap != submap || !(entry.weight > 0.0)) continue;
+    const ScaleEvidence one = measure(entry);
+    group_[count++] = {one.log_metres, one.information * entry.weight};
   }
   map_.metric.set_open(map_.submaps[submap].place.node, fuse({group_.data(), count}));
 }
@@ -146,8 +179,10 @@ void DistanceBook::close(int32_t submap) {
       ++k;
       continue;
     }
-    ++(entry.taken ? counts_.taken : counts_.refused);
-    if (kept && entry.long_enough) remember(map_.submaps[submap].segment, entry.log_metres);
+    ++(entry.weight > 0.0 ? counts_.taken : counts_.refused);
+    if (kept && entry.long_enough) {
+      remember(map_.submaps[submap].segment, {entry.log_metres, measure(entry).information});
+    }
     erase(k);
   }
 }
@@ -155,7 +190,7 @@ void DistanceBook::close(int32_t submap) {
 DistanceCounts DistanceBook::counts() const {
   DistanceCounts all = counts_;
   for (const Entry& entry : distances_) {
-    if (entry.submap >= 0) ++(entry.taken ? all.taken : all.refused);
+    if (entry.submap >= 0) ++(entry.weight > 0.0 ? all.taken : all.refused);
   }
   return all;
 }
@@ -196,16 +231,18 @@ bool DistanceBook::measure_on_map(const Distance& distance) {
   const double log_world = log_metres_per_unit(distance.metres, p, q);
   const double variance = distance.sigma * distance.sigma + kWaySigma * kWaySigma;
   const int32_t segment = keyframes[distance.i].segment;
-  const int32_t around = gather(segment);
-  values_[around] = log_world;
-  remember(segment, log_world);
-  if (!consensus_of(values_.subspan(0, around + 1)).accepts(log_world, 1.0 / variance)) {
+  const int32_t count = gather(segment);
+  const ScaleEvidence world = {log_world, 1.0 / variance};
+  values_[count] = world;
+  remember(segment, world);
+  const double weight = around(count, count + 1).weight(world);
+  if (!(weight > 0.0)) {
     ++counts_.refused;
     return true;
   }
   for (const int32_t node : way_) {
-    const ScaleEvidence world = {log_world, 1.0 / (variance * way_.size())};
-    map_.metric.add(node, world.of_unit(math::log(map_.graph.pose(node).s)));
+    const ScaleEvidence part = {log_world, weight * world.information / way_.size()};
+    map_.metric.add(node, part.of_unit(math::log(map_.graph.pose(node).s)));
   }
   ++counts_.taken;
   return true;
@@ -213,7 +250,7 @@ bool DistanceBook::measure_on_map(const Distance& distance) {
 
 void DistanceBook::rescale_world(int32_t segment, int32_t into, double log_factor) {
   for (Remembered& old : memory_) {
-    if (old.segment == segment) old = {into, old.log_metres - log_factor};
+    if (old.segment == segment) old = {into, old.world.of_unit(-log_factor)};
   }
 }
 

@@ -34,7 +34,7 @@ class DistanceBook {
   DistanceBook(Arena& arena, int32_t nodes, Map& map)
       : distances_(arena, kMost),
         group_(arena.take<ScaleEvidence>(kMost)),
-        values_(arena.take<double>(kMost + kMemory)),
+        values_(arena.take<ScaleEvidence>(kMost + kMemory)),
         way_(arena, nodes),
         map_(map) {}
 
@@ -53,24 +53,29 @@ class DistanceBook {
 
   void visit(Archive* archive);
 
+  /// By how much slips may have moved the scale of a segment, log: what they would have done to it
+  /// had they counted fully, beyond its noise, halved.
+  double doubt(int32_t segment) const;
+
   /// World scales of a segment are another factor's.
   void rescale_world(int32_t segment, int32_t into, double log_factor);
 
  private:
   static constexpr int32_t kMost = 256;   // distances that wait or are open
   static constexpr int32_t kMemory = 15;  // closed ones that the next are compared with
+  static constexpr int32_t kAround = 12;  // of those before and after that one is compared with
 
   struct Entry {
     Distance distance;
     int32_t submap = -1;      // whose unit it is measured in, -1: not yet
     double log_metres = 0.0;  // in the world's unit, as last judged
     bool long_enough = false;
-    bool taken = false;  // and agrees with its neighbours
+    double weight = 0.0;  // how far it agrees with those around it
   };
-  /// log of metres in the world's unit, of a distance that is closed.
+  /// Metres in the world's unit, of a distance that is closed.
   struct Remembered {
     int32_t segment = -1;
-    double log_metres = 0.0;
+    ScaleEvidence world;
   };
 
   void visit_entry(Archive* archive, Entry* entry);
@@ -83,7 +88,8 @@ class DistanceBook {
   bool belongs(const Entry& entry, int32_t segment) const;
   int32_t gather(int32_t segment);
   void judge(int32_t segment);
-  void remember(int32_t segment, double log_metres);
+  Consensus around(int32_t place, int32_t count) const;
+  void remember(int32_t segment, const ScaleEvidence& world);
   void close_retired();
   void place_waiting();
   bool measure_on_map(const Distance& distance);
@@ -93,7 +99,7 @@ class DistanceBook {
 
   FixedVector<Entry> distances_;
   Span<ScaleEvidence> group_;
-  Span<double> values_;
+  Span<ScaleEvidence> values_;  // of one segment, in the order they came
   FixedVector<int32_t> way_;
   Remembered memory_[kMemory];
   int32_t remembered_ = 0;

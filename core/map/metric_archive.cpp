@@ -94,7 +94,7 @@ void DistanceBook::visit(Archive* archive) {
   archive->index(&remembered_, 0, 2 * kMemory - 1);
   for (Remembered& old : memory_) {
     archive->index(&old.segment, -1, kLastId);
-    archive->finite(&old.log_metres);
+    visit_evidence(archive, &old.world);
   }
   int32_t count = distances_.size();
   archive->index(&count, 0, kMost);
@@ -113,7 +113,8 @@ void DistanceBook::visit_entry(Archive* archive, Entry* entry) {
   archive->index(&entry->submap, -1, kMostCount);
   archive->finite(&entry->log_metres);
   archive->flag(&entry->long_enough);
-  archive->flag(&entry->taken);
+  archive->finite(&entry->weight);
+  archive->expect(entry->weight >= 0.0 && entry->weight <= 1.0);
   if (!archive->loading() || !archive->ok() || !is_open(entry->submap)) return;
   const Submap& submap = map_.submaps[entry->submap];
   archive->expect(!submap.is_loop && view_of(submap, distance.i) >= 0 &&

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/depth/nth_element.hpp"
-
 namespace unisim {
 
 ScaleEvidence fuse(const ScaleEvidence& one, const ScaleEvidence& other) {
@@ -29,22 +27,44 @@ ScaleEvidence fuse(Span<const ScaleEvidence> all) {
   return mean;
 }
 
-bool Consensus::accepts(double value, double information) const {
+double Consensus::weight(const ScaleEvidence& one) const {
   constexpr int32_t kFewest = 5;
-  constexpr double kWidths = 4.0;
-  if (count < kFewest) return true;
-  const double apart = value - median;
-  return apart * apart <= kWidths * kWidths * (1.0 / information + spread * spread);
+  constexpr double kWidths = 3.0;
+  if (count < kFewest) return 1.0;
+  const double variance = std::max(1.0 / one.information, spread * spread);
+  const double apart = one.log_metres - center;
+  const double share = apart * apart / (kWidths * kWidths * variance);
+  return share < 1.0 ? (1.0 - share) * (1.0 - share) : 0.0;
 }
 
-Consensus consensus_of(Span<double> values) {
-  constexpr double kNormal = 1.4826;  // standard deviations per median absolute deviation
-  Consensus all;
-  all.count = values.size();
-  all.median = median(values);
-  for (double& value : values) value = std::abs(value - all.median);
-  all.spread = kNormal * median(values);
-  return all;
+Consensus consensus_of(Span<ScaleEvidence> all) {
+  constexpr int32_t kRounds = 3;
+  // Standard deviations of a normal distribution in half the length of its middle half.
+  constexpr double kHalf = 0.6745;
+  std::sort(all.begin(), all.end(), [](const ScaleEvidence& a, const ScaleEvidence& b) {
+    return a.log_metres < b.log_metres;
+  });
+  Consensus most;
+  most.count = all.size();
+  const int32_t half = all.size() / 2;
+  double shortest = all[half].log_metres - all[0].log_metres;
+  int32_t first = 0;
+  for (int32_t k = 1; k + half < all.size(); ++k) {
+    const double length = all[k + half].log_metres - all[k].log_metres;
+    if (length >= shortest) continue;
+    shortest = length;
+    first = k;
+  }
+  most.center = all[first].log_metres + 0.5 * shortest;
+  most.spread = 0.5 * shortest / kHalf;
+  for (int32_t round = 0; round < kRounds; ++round) {
+    ScaleEvidence mean;
+    for (const ScaleEvidence& one : all) {
+      mean = fuse(mean, {one.log_metres, one.information * most.weight(one)});
+    }
+    if (mean.known()) most.center = mean.log_metres;
+  }
+  return most;
 }
 
 }  // namespace unisim

@@ -25,18 +25,21 @@ ScaleEvidence fuse(const ScaleEvidence& one, const ScaleEvidence& other);
 /// as they scatter.
 ScaleEvidence fuse(Span<const ScaleEvidence> all);
 
-/// A value among its like, by median and median absolute deviation.
+/// What most of a few measurements of one unit say. A third of them may be off, all to one side,
+/// and by no more than they scatter anyway: a wheel that slips makes a way longer, never shorter.
 struct Consensus {
-  double median = 0.0;
-  double spread = 0.0;  ///< standard deviation that the median absolute deviation stands for
+  double center = 0.0;
+  double spread = 0.0;  ///< standard deviation of the half of them that is nearest together
   int32_t count = 0;
 
-  /// Whether a measurement belongs to the others: within four standard deviations, its own and
-  /// theirs together. Among fewer than five nobody can say.
-  bool accepts(double value, double information) const;
+  /// How much of a measurement belongs to them: 1 at their center, 0 from three standard deviations
+  /// on (its own, or what they scatter by where that is more). Among fewer than five nobody can
+  /// say.
+  double weight(const ScaleEvidence& one) const;
 };
 
-/// Reorders `values`, of which there is at least one.
-Consensus consensus_of(Span<double> values);
+/// From the middle of the shortest half, where most lie, some rounds of Tukey's biweight. Reorders
+/// `all`, of which there is at least one.
+Consensus consensus_of(Span<ScaleEvidence> all);
 
 }  // namespace unisim

@@ -96,7 +96,8 @@ Status Session::scale(int32_t segment, ScaleOutput* scale) {
   const double sigma = map_.metric.sigma(segment);
   if (sigma < 0.0) return Status::kNotReady;
   scale->metres_per_unit = 1.0 / map_.graph.pose(metre).s;
-  scale->sigma = std::sqrt(sigma * sigma + sources_.common_variance());
+  const double doubt = distances_.doubt(segment);
+  scale->sigma = std::sqrt(sigma * sigma + doubt * doubt + sources_.common_variance());
   return Status::kOk;
 }
 

@@ -2,6 +2,7 @@
 // What is known of a unit in metres: fused by information, judged among its like.
 #include "core/map/scale_evidence.hpp"
 
+#include <cmath>
 #include <vector>
 
 #include "tests/support/catch.hpp"
@@ -14,8 +15,14 @@ ScaleEvidence all_of(std::vector<ScaleEvidence> all) {
   return fuse(Span<const ScaleEvidence>(all.data(), static_cast<int32_t>(all.size())));
 }
 
-Consensus consensus(std::vector<double> values) {
-  return consensus_of({values.data(), static_cast<int32_t>(values.size())});
+Consensus consensus(std::vector<ScaleEvidence> all) {
+  return consensus_of({all.data(), static_cast<int32_t>(all.size())});
+}
+
+Consensus consensus(const std::vector<double>& values) {
+  std::vector<ScaleEvidence> all;
+  for (const double value : values) all.push_back({value, 1e4});
+  return consensus(all);
 }
 
 }  // namespace
@@ -50,13 +57,24 @@ TEST_CASE("a longer unit has more metres") {
 
 TEST_CASE("a value far from the others does not belong to them") {
   const Consensus others = consensus({1.0, 1.01, 0.99, 1.02, 0.98, 1.5});
-  CHECK(others.median == Approx(1.005));
-  CHECK(others.accepts(1.05, 1e4));
-  CHECK_FALSE(others.accepts(1.5, 1e4));
+  CHECK(others.center == Approx(1.0).margin(0.005));
+  CHECK(others.weight({1.0, 1e4}) > 0.9);
+  CHECK(others.weight({1.5, 1e4}) == 0.0);
   // One that is itself so unsure may be where it likes.
-  CHECK(others.accepts(1.5, 16.0));
+  CHECK(others.weight({1.5, 4.0}) > 0.5);
 }
 
 TEST_CASE("among fewer than five nobody can say which one is wrong") {
-  CHECK(consensus({1.0, 1.0, 1.0, 9.0}).accepts(9.0, 1e4));
+  CHECK(consensus({1.0, 1.0, 1.0, 9.0}).weight({9.0, 1e4}) == 1.0);
+}
+
+TEST_CASE("values that are off to one side do not draw the others after them") {
+  // Two fifths of them 8 % too long, the others right to 1 %.
+  std::vector<double> values;
+  for (int k = 0; k < 20; ++k) {
+    values.push_back(k % 5 < 2 ? 0.08 + 0.001 * k : 0.01 * std::sin(2.0 * k));
+  }
+  const Consensus most = consensus(values);
+  CHECK(std::abs(most.center) < 0.006);
+  CHECK(most.weight({0.08, 1e4}) == 0.0);
 }
