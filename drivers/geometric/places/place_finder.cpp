@@ -15,6 +15,9 @@ constexpr int32_t kSpread = 4;  // keyframes between candidates: neighbours show
 constexpr size_t kMinMatches = 8;
 constexpr double kPoseGate = 4.0;  // pixels at the reference diagonal
 constexpr double kPoseGates[kFitRounds + 1] = {kPoseGate, kPoseGate, kPoseGate, kPoseGate};
+// Of a frame that is looked for by itself: see find_quickly().
+constexpr int32_t kQuickFeatures = 300;
+constexpr size_t kVerified = 3;
 constexpr double kLinked = 0.5;  // share of a place's landmarks the keyframe sees anyway
 
 int32_t asked_of(PlaceFinder::Scope scope) {
@@ -79,6 +82,32 @@ bool PlaceFinder::find(const State& state, const DescriptorStore& store, const P
   return false;
 }
 
+bool PlaceFinder::find_quickly(const State& state, const DescriptorStore& store,
+                               const PatchStore& patches, const PreparedImage& current,
+                               const Question& question, int32_t skip, PlaceFound* out, bool* end) {
+  *end = true;
+  if (!describable_) return false;
+  list_.keep(state.map.ids());
+  candidates_.clear();
+  for (const unisim_places_match& match :
+       list_.query(seen_, descriptor_.data(), question.gap, kSpread, config_.max_keyframes)) {
+    if (!state.map.keyframe(match.id).posed || skip-- > 0) continue;
+    *end = static_cast<int32_t>(candidates_.size()) < question.tries;
+    if (!*end) break;
+    viewer_.collect(state, store, match.id, &view_);
+    match_features(features_, view_, kQuickFeatures, &pairs_);
+    candidates_.push_back({match.id, pairs_.size()});
+  }
+  std::stable_sort(candidates_.begin(), candidates_.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.matches > b.matches; });
+  for (size_t k = 0; k < std::min(kVerified, candidates_.size()); ++k) {
+    viewer_.collect(state, store, candidates_[k].keyframe, &view_);
+    unisim_place_report report{};
+    if (verify(state, patches, current, out, &report)) return true;
+  }
+  return false;
+}
+
 /// The keyframe sees the place's landmarks already: nothing new would be learnt.
 bool PlaceFinder::linked(const State& state) const {
   size_t followed = 0;
@@ -129,7 +158,7 @@ bool PlaceFinder::check(const State& state, const PatchStore& patches, const Pre
 
 bool PlaceFinder::pose_from_features(const State& state, CameraPose* pose,
                                      unisim_place_report* report) {
-  match_features(features_, view_, &pairs_);
+  match_features(features_, view_, kOrbFeatures, &pairs_);
   report->matches = static_cast<int32_t>(pairs_.size());
   report->reason = "too few features match";
   if (pairs_.size() < kMinMatches) return false;

@@ -45,6 +45,13 @@ class PlaceFinder {
   bool find(const State& state, const DescriptorStore& store, const PatchStore& patches,
             const PreparedImage& current, const Question& question, PlaceFound* out,
             drivers::PlaceReports* log);
+  /// The same anywhere in the map in bounded time, for a frame of which nothing is known: of
+  /// question.tries candidates those few are verified that most of the strongest features match.
+  /// @param skip candidates that are left out, the most alike first
+  /// @param[out] end there are no more after these
+  bool find_quickly(const State& state, const DescriptorStore& store, const PatchStore& patches,
+                    const PreparedImage& current, const Question& question, int32_t skip,
+                    PlaceFound* out, bool* end);
   /// Whether an image shows what keyframe `keyframe` saw, from `expected`.
   bool look_near(const State& state, const DescriptorStore& store, const PatchStore& patches,
                  const PreparedImage& current, int32_t keyframe, const CameraPose& expected,
@@ -74,6 +81,12 @@ class PlaceFinder {
   bool describable_ = false;
   int32_t seen_ = -1;
   PlaceView view_;
+  /// Of find_quickly().
+  struct Candidate {
+    int32_t keyframe;
+    size_t matches;
+  };
+  std::vector<Candidate> candidates_;
   std::vector<FeaturePair> pairs_;
   std::vector<PoseObservation> observations_;
   std::vector<uint8_t> inlier_;

@@ -56,11 +56,11 @@ void PlaceViewer::collect(const State& state, const DescriptorStore& store, int3
   }
 }
 
-void match_features(const OrbFeatureSet& features, const PlaceView& place,
+void match_features(const OrbFeatureSet& features, const PlaceView& place, int32_t most,
                     std::vector<FeaturePair>* out) {
   out->clear();
   std::vector<FeaturePair> best(place.landmark.size(), {-1, -1, 0});
-  for (int f = 0; f < features.descriptor.rows; ++f) {
+  for (int f = 0; f < std::min(features.descriptor.rows, most); ++f) {
     const NearestDescriptors nearest =
         nearest_descriptors(place.descriptor, place.owner, features.descriptor.ptr<uint8_t>(f));
     if (nearest.distance > kMaxDistance || nearest.distance > kMaxRatio * nearest.runner_up) {

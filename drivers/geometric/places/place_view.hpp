@@ -35,7 +35,8 @@ struct FeaturePair {
   int32_t landmark;  ///< index into PlaceView::landmark
   int32_t distance;
 };
-void match_features(const OrbFeatureSet& features, const PlaceView& place,
+/// @param most of the features, the strongest
+void match_features(const OrbFeatureSet& features, const PlaceView& place, int32_t most,
                     std::vector<FeaturePair>* out);
 
 }  // namespace unisim::geometric

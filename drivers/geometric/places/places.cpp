@@ -10,7 +10,8 @@ namespace {
 // While nothing can be followed there is time: after 60 black frames in redkitchen the right place
 // was among the first 4 for seven of ten keyframes.
 constexpr int32_t kLostTries = 8;
-// Of a frame that is asked for by itself; each takes some milliseconds.
+// Of a frame that is asked for by itself; while nothing is found the next frame tries the next
+// ones.
 constexpr int32_t kLocateTries = 12;
 // A segment that could be joined stays so for as long as the camera is near it.
 constexpr int32_t kJoinTries = 4;
@@ -36,7 +37,11 @@ bool Places::locate(const Look& look, PlaceFound* out) {
   if (config_.places == 0) return false;
   finder_.see(look.gray, look.keyframe);
   const PlaceFinder::Question question = {PlaceFinder::Scope::kAll, 0, kLocateTries};
-  return finder_.find(look.state, store_, look.patches, look.current, question, out, nullptr);
+  bool end = false;
+  const bool found = finder_.find_quickly(look.state, store_, look.patches, look.current, question,
+                                          skip_, out, &end);
+  skip_ = found || end ? 0 : skip_ + kLocateTries;
+  return found;
 }
 
 bool Places::look_near(const Look& look, int32_t keyframe, const CameraPose& expected,

@@ -67,6 +67,7 @@ class Places {
   PlaceFound found_;
   drivers::PlaceReports reports_;
   int32_t relocalised_ = 0;
+  int32_t skip_ = 0;  // candidates that frames before this one have tried, see locate()
   int32_t joined_ = 0;
 };
 
