@@ -14,6 +14,7 @@
 #include <string>
 
 #include "drivers/v4l2/v4l2.h"
+#include "tests/v4l2/vivid/pose_ages.hpp"
 
 namespace {
 
@@ -136,6 +137,18 @@ void stream(int32_t width, int32_t height, double fps, const char* format) {
         what.c_str(), details);
 }
 
+// Printed, and held to no more than that a frame is not kept: the machine is emulated, several
+// times slower than a board.
+void latency() {
+  constexpr int kPoses = 120;
+  constexpr double kLongest = 500.0;  // ms
+  Run run(config_of(640, 480, 25, "GREY"));
+  if (run.source == nullptr) return check(false, "from stamp to pose", run.message);
+  const PoseAges ages = pose_ages(run.source, kPoses);
+  check(ages.poses == kPoses && ages.in_order && ages.p95_ms < kLongest, "from stamp to pose",
+        ages.text());
+}
+
 void damaged_frames() {
   Run run(config_of(320, 180, 30, "GREY"));
   run.read(3);
@@ -211,6 +224,7 @@ int main() {
   stream(640, 480, 25, "YUYV");
   stream(640, 360, 30, "GREY");
   stream(320, 180, 60, "NV12");
+  latency();
   damaged_frames();
   broken_stream();
   dropped_frames();
