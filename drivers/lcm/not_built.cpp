@@ -38,6 +38,10 @@ void unisim_lcm_publisher_destroy(unisim_lcm_publisher*) {}
 
 void unisim_lcm_publisher_flush(unisim_lcm_publisher*) {}
 
+int unisim_lcm_publisher_set_unit(unisim_lcm_publisher*, int32_t, double) {
+  return UNISIM_LCM_REFUSED;
+}
+
 int unisim_lcm_publish_pose(unisim_lcm_publisher*, int64_t, const unisim_sim3*) {
   return UNISIM_LCM_REFUSED;
 }

@@ -36,6 +36,7 @@ int unisim_lcm_publish_trajectory(unisim_lcm_publisher* publisher, int64_t times
   out.chunk = chunk;
   out.chunks = chunks;
   out.unit = publisher->unit;
+  out.scale_sigma = publisher->scale_sigma;
   out.n = count;
   out.poses = publisher->poses.data();
   return put(publisher, "UNISIM_TRAJECTORY", out, unisim_trajectory_t_encoded_size,
@@ -55,6 +56,7 @@ int unisim_lcm_publish_points(unisim_lcm_publisher* publisher, const unisim_lcm_
   out.keyframe = points->keyframe_id;
   out.segment = points->segment;
   out.unit = publisher->unit;
+  out.scale_sigma = publisher->scale_sigma;
   put_pose(points->T_world_points, out.pos, out.orientation);
   out.scale = points->T_world_points.s;
   constexpr int32_t kChunk = UNISIM_LCM_CHUNK_POINTS;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The small messages: pose, keyframe, correction, status.
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 
@@ -35,6 +36,18 @@ bool good_stages(const unisim_lcm_status& status) {
 
 }  // namespace
 
+int unisim_lcm_publisher_set_unit(unisim_lcm_publisher* publisher, int32_t unit,
+                                  double scale_sigma) {
+  const bool metric = unit == UNISIM_LCM_UNIT_METRIC;
+  if (publisher == nullptr || (!metric && unit != UNISIM_LCM_UNIT_RELATIVE) ||
+      !std::isfinite(scale_sigma) || scale_sigma < 0.0) {
+    return UNISIM_LCM_REFUSED;
+  }
+  publisher->unit = unit;
+  publisher->scale_sigma = metric ? scale_sigma : 0.0;
+  return UNISIM_LCM_QUEUED;
+}
+
 int unisim_lcm_publish_pose(unisim_lcm_publisher* publisher, int64_t timestamp_ns,
                             const unisim_sim3* T_world_cam) {
   if (publisher == nullptr || T_world_cam == nullptr || !is_pose(*T_world_cam)) {
@@ -64,6 +77,7 @@ int unisim_lcm_publish_keyframe(unisim_lcm_publisher* publisher, const unisim_po
   out.submap = pose->submap_id;
   out.segment = pose->segment;
   out.unit = publisher->unit;
+  out.scale_sigma = publisher->scale_sigma;
   return put(publisher, "UNISIM_KEYFRAME", out, unisim_keyframe_t_encoded_size,
              unisim_keyframe_t_encode);
 }
@@ -83,6 +97,8 @@ int unisim_lcm_publish_correction(unisim_lcm_publisher* publisher,
   out.jump_scale = correction->T_new_old.s;
   out.first_changed = correction->first_changed;
   out.last_changed = correction->last_changed;
+  out.unit = publisher->unit;
+  out.scale_sigma = publisher->scale_sigma;
   return put(publisher, "UNISIM_CORRECTION", out, unisim_correction_t_encoded_size,
              unisim_correction_t_encode);
 }
@@ -106,6 +122,7 @@ int unisim_lcm_publish_status(unisim_lcm_publisher* publisher, const unisim_lcm_
   out.state = status->state;
   out.reason = status->struct_size >= sizeof *status ? status->reason : UNISIM_STATUS_T_REASON_NONE;
   out.unit = publisher->unit;
+  out.scale_sigma = publisher->scale_sigma;
   out.confidence = status->confidence;
   out.keyframe = status->keyframe_id;
   out.segment = status->segment;

@@ -25,7 +25,7 @@ extern "C" {
 
 /** Unit of all lengths that are sent; the numbers of status_t.UNIT_*. */
 #define UNISIM_LCM_UNIT_RELATIVE 0 /**< the map's own */
-#define UNISIM_LCM_UNIT_METRIC 1   /**< metres: the predictor is known to give them */
+#define UNISIM_LCM_UNIT_METRIC 1   /**< metres */
 
 /** What unisim_lcm_publish_*() answers. */
 #define UNISIM_LCM_QUEUED 0  /**< on its way */
@@ -35,7 +35,8 @@ extern "C" {
 /** How to make a publisher. All zero but struct_size is a good default. */
 typedef struct unisim_lcm_publisher_config {
   uint32_t struct_size; /**< sizeof this struct, set by the caller */
-  int32_t unit;         /**< UNISIM_LCM_UNIT_* (0) */
+  int32_t unit;         /**< UNISIM_LCM_UNIT_* of the lengths that are sent until
+                             unisim_lcm_publisher_set_unit() says otherwise (0) */
   int32_t queue_bytes; /**< messages that may wait; twice the largest image to be sent, and 64 kB to
                             1 GB; 0: 4 MB (0) */
   int32_t requests;    /**< 1: listen to UNISIM_REQUEST, for unisim_lcm_next_request() (0) */
@@ -61,6 +62,15 @@ UNISIM_API void unisim_lcm_publisher_destroy(unisim_lcm_publisher* publisher);
 /** Wait up to a second for what is queued to go out: before the counters are read at the end.
  *  @param publisher live publisher */
 UNISIM_API void unisim_lcm_publisher_flush(unisim_lcm_publisher* publisher);
+
+/** Say the unit of the lengths that are sent from now on. Poses go on in the new one after a
+ *  correction whose jump scales them; send a status then too.
+ *  @param publisher live publisher
+ *  @param unit        UNISIM_LCM_UNIT_*
+ *  @param scale_sigma of METRIC: relative standard deviation of the metre; else 0
+ *  @return UNISIM_LCM_QUEUED, _REFUSED */
+UNISIM_API int unisim_lcm_publisher_set_unit(unisim_lcm_publisher* publisher, int32_t unit,
+                                             double scale_sigma);
 
 /** UNISIM_POSE: the pose of a frame as it is known first.
  *  @param publisher live publisher

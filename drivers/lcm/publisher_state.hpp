@@ -16,6 +16,7 @@
 /// Made once; messages are put together in its arrays.
 struct unisim_lcm_publisher {
   int32_t unit = UNISIM_LCM_UNIT_RELATIVE;
+  double scale_sigma = 0.0;        // of UNISIM_LCM_UNIT_METRIC
   std::shared_ptr<lcm_t> network;  // the sending thread shares it
   lcm_subscription_t* requests = nullptr;
   int32_t wanted_id = -1;  // of the newest request, -1: none

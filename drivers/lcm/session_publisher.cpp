@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "drivers/pipeline/metre_book.hpp"
 #include "drivers/pipeline/similarity.hpp"
 #include "drivers/pipeline/stages.hpp"
 #include "drivers/pipeline/submap_points.hpp"
@@ -16,12 +17,31 @@ constexpr std::chrono::seconds kStatusPeriod(1);
 // Between the messages of the last trajectory: receivers with usual buffers hold four.
 constexpr std::chrono::milliseconds kChunkPause(5);
 
+/// The world in metres where they are known: p' = metres p.
+unisim_sim3 in_metres(unisim_sim3 T, const pipeline::Metre& metre) {
+  if (!(metre.per_unit > 0.0)) return T;
+  for (double& t : T.t) t *= metre.per_unit;
+  T.s *= metre.per_unit;
+  return T;
+}
+
 }  // namespace
 
 SessionPublisher::SessionPublisher(unisim_lcm_publisher* publisher,
                                    const SessionPublisherOptions& options)
     : publisher_(publisher), options_(options), history_(options.folder) {
   poses_.reserve(UNISIM_LCM_CHUNK_POSES);
+}
+
+pipeline::Metre SessionPublisher::metre_of(int32_t segment) const {
+  const bool live = live_.struct_size == 0 || segment == live_.segment;
+  return live ? metre_ : pipeline_->metre(segment);
+}
+
+void SessionPublisher::say_unit(const pipeline::Metre& metre) {
+  unisim_lcm_publisher_set_unit(
+      publisher_, metre.per_unit > 0.0 ? UNISIM_LCM_UNIT_METRIC : UNISIM_LCM_UNIT_RELATIVE,
+      metre.sigma);
 }
 
 bool SessionPublisher::read_pose(int32_t keyframe, unisim_pose* pose) const {
@@ -45,13 +65,21 @@ void SessionPublisher::on_frame(const unisim_frame& frame) {
   }
 }
 
+/// A segment begins in its own unit, one that is localised in has that of its map: there is no jump
+/// from one to the other.
 void SessionPublisher::on_live_pose(const pipeline::LivePose& pose) {
   newest_ns_ = pose.timestamp_ns;
-  unisim_lcm_publish_pose(publisher_, pose.timestamp_ns, &pose.T_world_cam);
   unisim_pose keyframe{};
-  if (pose.keyframe_id < 0 || !read_pose(pose.keyframe_id, &keyframe)) return;
+  const bool is_keyframe = pose.keyframe_id >= 0 && read_pose(pose.keyframe_id, &keyframe);
+  const bool first = live_.struct_size == 0;
+  if (first || (is_keyframe && keyframe.segment != live_.segment)) metre_ = pose.metre;
+  say_unit(metre_);
+  const unisim_sim3 T_world_cam = in_metres(pose.T_world_cam, metre_);
+  unisim_lcm_publish_pose(publisher_, pose.timestamp_ns, &T_world_cam);
+  if (!is_keyframe) return;
   live_ = keyframe;
-  unisim_lcm_publish_keyframe(publisher_, &keyframe, revision_, nullptr);
+  live_.T_world_kf = in_metres(keyframe.T_world_kf, metre_);
+  unisim_lcm_publish_keyframe(publisher_, &live_, revision(), nullptr);
 }
 
 void SessionPublisher::on_window(int32_t submap_id, const unisim_window_prediction& window) {
@@ -74,10 +102,13 @@ void SessionPublisher::send_points(int32_t submap_id, const unisim_window_predic
   points.struct_size = sizeof points;
   points.submap_id = submap_id;
   points.timestamp_ns = anchor.timestamp_ns;
-  points.map_revision = revision_;
+  points.map_revision = revision();
   points.segment = anchor.segment;
   points.T_world_points = anchor.T_world_kf;
   points.T_world_points.s = submap.T_world_submap.s;
+  const pipeline::Metre metre = metre_of(anchor.segment);
+  points.T_world_points = in_metres(points.T_world_points, metre);
+  say_unit(metre);
   points.xyz = xyz_.data();
   points.count = static_cast<int32_t>(xyz_.size() / 3);
   points.keyframe_id = anchor.keyframe_id;
@@ -87,8 +118,14 @@ void SessionPublisher::send_points(int32_t submap_id, const unisim_window_predic
 void SessionPublisher::on_optimized(const unisim_report& report) {
   unisim_session_info info{};
   if (!read_info(&info)) return;
-  if (report.map_revision > revision_) send_correction(report);
-  send_optimized_keyframes(report.map_revision);
+  const bool was_relative = !metre_known();
+  const bool metre_only = report.map_revision <= revision_;
+  const bool other_metre =
+      live_.struct_size != 0 && pipeline::differs(pipeline_->metre(live_.segment), metre_);
+  if (!metre_only || other_metre) send_correction(report, metre_only);
+  send_optimized_keyframes();
+  // All that was sent is in the older unit.
+  if (was_relative && metre_known()) begin_trajectory(0);
   if (info.loops <= loops_) return;
   loops_ = info.loops;
   // What has left the window moves with the oldest that it kept.
@@ -97,26 +134,31 @@ void SessionPublisher::on_optimized(const unisim_report& report) {
 }
 
 /// The jump from where listeners have the newest keyframe to where it is now: small steps that the
-/// session did not count are in it.
-void SessionPublisher::send_correction(const unisim_report& report) {
+/// session did not count are in it, and what became known of the metre.
+void SessionPublisher::send_correction(const unisim_report& report, bool metre_only) {
   revision_ = report.map_revision;
+  if (metre_only) ++unit_changes_;
   unisim_pose now{};
   if (live_.struct_size == 0 || !read_pose(live_.keyframe_id, &now)) return;
+  metre_ = pipeline_->metre(now.segment);
+  say_unit(metre_);
+  const unisim_sim3 before = live_.T_world_kf;
+  live_ = now;
+  live_.T_world_kf = in_metres(now.T_world_kf, metre_);
   unisim_lcm_correction correction{};
   correction.struct_size = sizeof correction;
-  correction.map_revision = report.map_revision;
+  correction.map_revision = revision();
   correction.timestamp_ns = newest_ns_;
-  correction.keyframe_id = now.keyframe_id;
-  correction.segment = now.segment;
+  correction.keyframe_id = live_.keyframe_id;
+  correction.segment = live_.segment;
   correction.first_changed = report.first_changed;
   correction.last_changed = report.last_changed;
-  correction.T_new_old = pipeline::compose(now.T_world_kf, pipeline::inverse(live_.T_world_kf));
+  correction.T_new_old = pipeline::compose(live_.T_world_kf, pipeline::inverse(before));
   unisim_lcm_publish_correction(publisher_, &correction);
-  live_ = now;
 }
 
 /// Each keyframe once when a submap has it: only then its covariance says something.
-void SessionPublisher::send_optimized_keyframes(int32_t map_revision) {
+void SessionPublisher::send_optimized_keyframes() {
   for (; next_covered_ <= last_windowed_; ++next_covered_) {
     unisim_pose pose{};
     if (!read_pose(next_covered_, &pose) || pose.confidence == 0) continue;
@@ -124,7 +166,10 @@ void SessionPublisher::send_optimized_keyframes(int32_t map_revision) {
     const bool known =
         options_.covariance &&
         unisim_get_covariance(pipeline_->session(), next_covered_, covariance) == UNISIM_OK;
-    unisim_lcm_publish_keyframe(publisher_, &pose, map_revision, known ? covariance : nullptr);
+    const pipeline::Metre metre = metre_of(pose.segment);
+    pose.T_world_kf = in_metres(pose.T_world_kf, metre);
+    say_unit(metre);
+    unisim_lcm_publish_keyframe(publisher_, &pose, revision(), known ? covariance : nullptr);
   }
 }
 
@@ -143,6 +188,20 @@ void SessionPublisher::begin_trajectory(int32_t first) {
   trajectory_.chunks = (count + UNISIM_LCM_CHUNK_POSES - 1) / UNISIM_LCM_CHUNK_POSES;
 }
 
+/// One message has one unit: metres where they are known of all its poses.
+/// @return with the largest standard deviation; 0: the poses stay in the map's units
+pipeline::Metre SessionPublisher::poses_in_metres() {
+  pipeline::Metre all;
+  for (const unisim_pose& pose : poses_) {
+    const pipeline::Metre metre = metre_of(pose.segment);
+    if (!(metre.per_unit > 0.0)) return {};
+    all = {metre.per_unit, std::max(all.sigma, metre.sigma)};
+  }
+  for (unisim_pose& pose : poses_)
+    pose.T_world_kf = in_metres(pose.T_world_kf, metre_of(pose.segment));
+  return all;
+}
+
 void SessionPublisher::send_trajectory_chunk() {
   if (trajectory_.next >= trajectory_.end) return;
   const int32_t end = std::min(trajectory_.next + UNISIM_LCM_CHUNK_POSES, trajectory_.end);
@@ -151,7 +210,8 @@ void SessionPublisher::send_trajectory_chunk() {
     unisim_pose pose{};
     if (read_pose(id, &pose) && pose.confidence > 0) poses_.push_back(pose);
   }
-  unisim_lcm_publish_trajectory(publisher_, newest_ns_, revision_, poses_.data(),
+  say_unit(poses_in_metres());
+  unisim_lcm_publish_trajectory(publisher_, newest_ns_, revision(), poses_.data(),
                                 static_cast<int32_t>(poses_.size()), trajectory_.chunk,
                                 trajectory_.chunks);
   trajectory_.next = end;
@@ -166,6 +226,7 @@ void SessionPublisher::on_progress(const pipeline::Progress& progress) {
   const bool other_reason =
       progress.reason != told_reason_ && progress.reason != UNISIM_REASON_DUPLICATE;
   const bool changed = progress.state != told_state_ || other_reason ||
+                       metre_known() != told_metric_ ||
                        (live_.struct_size != 0 && live_.segment != told_segment_);
   if (changed || Clock::now() >= next_status_) send_status(progress);
 }
@@ -176,6 +237,7 @@ void SessionPublisher::send_status(const pipeline::Progress& progress) {
   unisim_pose newest{};
   const bool posed = info.last_posed >= 0 && read_pose(info.last_posed, &newest);
   fill_stages();
+  say_unit(metre_);
   unisim_lcm_status status{};
   status.struct_size = sizeof status;
   status.state = progress.state;
@@ -184,7 +246,7 @@ void SessionPublisher::send_status(const pipeline::Progress& progress) {
   status.confidence = posed ? newest.confidence : 0;
   status.keyframe_id = posed ? newest.keyframe_id : -1;
   status.segment = posed ? newest.segment : -1;
-  status.map_revision = info.map_revision;
+  status.map_revision = revision();
   status.frames = progress.frames;
   status.frames_bad = progress.frames_bad;
   status.frames_dropped = progress.frames_dropped;
@@ -198,6 +260,7 @@ void SessionPublisher::send_status(const pipeline::Progress& progress) {
   unisim_lcm_publish_status(publisher_, &status);
   told_state_ = progress.state;
   told_reason_ = progress.reason;
+  told_metric_ = metre_known();
   told_segment_ = live_.struct_size != 0 ? live_.segment : -1;
   next_status_ = Clock::now() + kStatusPeriod;
 }
@@ -215,6 +278,14 @@ void SessionPublisher::fill_stages() {
 
 void SessionPublisher::finish() {
   if (pipeline_ == nullptr || pipeline_->session() == nullptr) return;
+  const bool other =
+      live_.struct_size != 0 && pipeline_->metre(live_.segment).per_unit != metre_.per_unit;
+  if (other) {
+    unisim_report nothing_moved{};
+    nothing_moved.map_revision = revision_;
+    nothing_moved.first_changed = nothing_moved.last_changed = -1;
+    send_correction(nothing_moved, true);
+  }
   begin_trajectory(0);
   while (trajectory_.next < trajectory_.end) {
     send_trajectory_chunk();

@@ -21,6 +21,10 @@ struct SessionPublisherOptions {
   std::string folder;             ///< for a temporary file of old poses, "" for memory
 };
 
+/// What is sent is in metres from the time on at which the session knows how long one is; before
+/// that in the map's unit. The change is told as a correction whose jump scales all, as is each
+/// later one of the metre.
+///
 /// Reads the session. With options.covariance the graph is factorised more often, which rounds
 /// differently: poses may differ from those of a run without in the eighth digit; otherwise they
 /// are the same bits.
@@ -55,12 +59,20 @@ class SessionPublisher : public pipeline::Listener {
     int32_t chunks = 0;
   };
 
+  /// A keyframe where it is today, in the map's unit.
   bool read_pose(int32_t keyframe, unisim_pose* pose) const;
+  /// How long the unit of a segment is, as those who listen have it.
+  pipeline::Metre metre_of(int32_t segment) const;
+  /// The unit of what is sent next.
+  void say_unit(const pipeline::Metre& metre);
+  bool metre_known() const { return metre_.per_unit > 0.0; }
+  int32_t revision() const { return revision_ + unit_changes_; }
   bool read_info(unisim_session_info* info) const;
-  void send_correction(const unisim_report& report);
-  void send_optimized_keyframes(int32_t map_revision);
+  void send_correction(const unisim_report& report, bool metre_only);
+  void send_optimized_keyframes();
   void send_points(int32_t submap_id, const unisim_window_prediction& window);
   void begin_trajectory(int32_t first);
+  pipeline::Metre poses_in_metres();
   void send_trajectory_chunk();
   void send_status(const pipeline::Progress& progress);
   void fill_stages();
@@ -73,8 +85,10 @@ class SessionPublisher : public pipeline::Listener {
   int32_t image_height_ = 0;
   int64_t newest_ns_ = 0;  // pose sent last
   unisim_pose live_{};     // newest keyframe, where those who listen have it; struct_size 0: none
+  pipeline::Metre metre_;  // of its segment, as they have it
   int32_t revision_ = 0;   // of the map they have it in
-  int32_t loops_ = 0;      // when the trajectory was sent last
+  int32_t unit_changes_ = 0;  // corrections that only said how long a metre is
+  int32_t loops_ = 0;         // when the trajectory was sent last
   int32_t next_covered_ = 0;  // oldest keyframe not sent from a submap yet
   int32_t last_windowed_ = -1;
   Trajectory trajectory_;
@@ -83,6 +97,7 @@ class SessionPublisher : public pipeline::Listener {
   std::vector<unisim_lcm_stage> stages_;
   int32_t told_state_ = -1;
   int32_t told_reason_ = 0;
+  bool told_metric_ = false;
   int32_t told_segment_ = -1;
   Clock::time_point next_status_{};
 };

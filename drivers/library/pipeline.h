@@ -18,7 +18,12 @@
  *
  *  Callbacks are called on the pipeline's thread, one at a time, in the order of what they tell.
  *  Tracking waits for them: they should hand on and return. Pointers are valid during the call.
- *  They may call unisim_pipeline_ask_stop() and nothing else of this header. */
+ *  They may call unisim_pipeline_ask_stop(), _add_odometry() and _add_distance() and nothing else
+ * of this header.
+ *
+ *  Lengths are in the map's own unit: one camera does not see metres. Odometry, known distances,
+ * the camera's height over the ground or a predictor that knows metres say how long that is:
+ *  metres_per_unit beside the poses, from then on. */
 #ifndef UNISIM_DRIVERS_LIBRARY_PIPELINE_H
 #define UNISIM_DRIVERS_LIBRARY_PIPELINE_H
 
@@ -51,6 +56,9 @@ typedef struct unisim_live_pose {
   int32_t reason;          /**< UNISIM_REASON_* of predictor.h, with the frame before this one;
                                 0: all was well */
   int32_t reserved;        /**< 0 */
+  double metres_per_unit;  /**< of lengths in T_world_cam, as known by now; 0: not known, they are
+                                relative */
+  double scale_sigma;      /**< its relative standard deviation */
 } unisim_live_pose;
 
 /** What an optimisation did to the poses given out before it. */
@@ -59,10 +67,12 @@ typedef struct unisim_correction {
   int32_t map_revision;  /**< after it */
   int32_t first_changed; /**< keyframes that moved, see unisim_report */
   int32_t last_changed;
-  int32_t keyframe_id;   /**< the newest one with a pose */
-  int32_t segment;       /**< of it */
-  int64_t timestamp_ns;  /**< of it */
-  unisim_sim3 T_new_old; /**< world before to world after: T_new_old * pose before = pose now */
+  int32_t keyframe_id;    /**< the newest one with a pose */
+  int32_t segment;        /**< of it */
+  int64_t timestamp_ns;   /**< of it */
+  unisim_sim3 T_new_old;  /**< world before to world after: T_new_old * pose before = pose now */
+  double metres_per_unit; /**< after it, of lengths in the segment; 0: not known */
+  double scale_sigma;     /**< its relative standard deviation */
 } unisim_correction;
 
 /** Where a run stands. */
@@ -77,6 +87,9 @@ typedef struct unisim_pipeline_status {
   int32_t reason;   /**< UNISIM_REASON_* of predictor.h: why the state is what it is, or what is
                          wrong with the newest frame; 0: all is well */
   int32_t reserved; /**< 0 */
+  double metres_per_unit; /**< of lengths in the newest pose's segment; 0: not known, they are
+                               relative */
+  double scale_sigma;     /**< its relative standard deviation */
 } unisim_pipeline_status;
 
 /** Everything a run is started with. Fill with unisim_pipeline_config_init(), then edit. */
@@ -118,6 +131,9 @@ typedef struct unisim_pipeline_config {
   int32_t localise; /**< 1: frames, every stride-th, are looked for in load_map, which stays as it
                        is, and those that are found get a pose (0) */
   int32_t reserved; /**< 0 */
+  double camera_height; /**< of the camera over the ground it drives on, metres: where windows see
+                             the ground, lengths become metric. Give the predictor the focal
+                             length too; 0: not known (0) */
 } unisim_pipeline_config;
 
 /** A run. */
@@ -153,6 +169,38 @@ UNISIM_API const char* unisim_pipeline_message(const unisim_pipeline* pipeline);
  *  @param[out] status   filled as far as its struct_size reaches */
 UNISIM_API void unisim_pipeline_get_status(const unisim_pipeline* pipeline,
                                            unisim_pipeline_status* status);
+
+/** How far the camera has gone, as wheels, legs or inertial navigation say. */
+typedef struct unisim_odometry_step {
+  uint32_t struct_size; /**< sizeof this struct, set by the caller */
+  int32_t reserved;     /**< 0 */
+  int64_t from_ns;      /**< on the clock of the frames */
+  int64_t to_ns;        /**< later; between steps of more than a second nothing is interpolated */
+  double metres;        /**< path of the camera between the two, >= 0 */
+  double sigma;         /**< its standard deviation over metres, apart from common_sigma; 0: 0.02 */
+  double common_sigma;  /**< relative error that all steps share, 0..1: no number of them makes the
+                             scale surer; 0: 0.05 */
+} unisim_odometry_step;
+
+/** Say how far the camera went between two times: lengths become metric. Best 10 times a second or
+ *  more often, as it comes; frames that it has not reached yet wait for it. The newest 8192 steps
+ *  are kept. From any thread, callbacks too; steps in the order of their times.
+ *  @param pipeline live pipeline
+ *  @param[in] step see unisim_odometry_step; a step that begins later than the one before ended
+ *                  leaves a gap
+ *  @return 1; 0: NULL, an unknown struct_size, numbers out of range, a step that begins before the
+ *          one before ended, or no room: the run does not take them */
+UNISIM_API int unisim_pipeline_add_odometry(unisim_pipeline* pipeline,
+                                            const unisim_odometry_step* step);
+
+/** Say how far two keyframes are apart: unisim_add_distance() for the session of the run, which
+ *  takes it with its next keyframe; what it refuses (keyframes unknown or gone, numbers out of
+ *  range) comes as a message. From any thread, callbacks too.
+ *  @param pipeline live pipeline
+ *  @param[in] distance see metric.h
+ *  @return 1; 0: NULL, an unknown struct_size, or no room */
+UNISIM_API int unisim_pipeline_add_distance(unisim_pipeline* pipeline,
+                                            const unisim_distance* distance);
 
 /** A reason in one or a few words.
  *  @param reason UNISIM_REASON_* of predictor.h

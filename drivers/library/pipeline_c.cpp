@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -86,6 +88,7 @@ struct unisim_pipeline : Listener {
   std::unique_ptr<unisim::lcm::SessionPublisher> publisher;  // NULL: not told over LCM
   std::unique_ptr<Pipeline> run;
   std::optional<std::string> map_to_save;
+  unisim::pipeline::DistanceInbox inbox;
   std::atomic<bool> stop{false};
   std::thread thread;
 
@@ -126,11 +129,19 @@ Preparation unisim_pipeline::prepare() {
   options.keyframes.stride = config.stride;
   options.patience_s = config.patience_ms / 1000.0;
   options.localise = config.localise != 0;
+  options.odometry = {nullptr, 0.0, 0.0, &inbox};
+  options.camera_height = config.camera_height;
+  if (!(config.camera_height >= 0.0 && std::isfinite(config.camera_height))) {
+    return {Answer::kBadConfiguration, "pipeline: camera_height is no height; give metres, or 0"};
+  }
   if (options.localise && (config.load_map == nullptr || config.save_map != nullptr)) {
     return {Answer::kBadConfiguration,
             "pipeline: localise needs load_map, and leaves nothing for save_map"};
   }
-  if (config.save_map != nullptr) map_to_save = config.save_map;
+  if (config.save_map != nullptr) {
+    map_to_save = config.save_map;
+    options.retired_folder = std::filesystem::path(*map_to_save).parent_path().string();
+  }
   if (config.session == nullptr) {
     const bool places = unisim::drivers::has_places(*predictor);
     session.max_keyframes = unisim::pipeline::keyframe_capacity(
@@ -231,6 +242,8 @@ void unisim_pipeline::on_live_pose(const LivePose& pose) {
   told.state = state;
   told.segment = newest.struct_size > 0 ? newest.segment : -1;
   told.reason = status.reason;
+  told.metres_per_unit = pose.metre.per_unit;
+  told.scale_sigma = pose.metre.sigma;
   {
     const std::lock_guard<std::mutex> lock(mutex);
     live = told;
@@ -257,6 +270,9 @@ void unisim_pipeline::on_optimized(const unisim_report& report) {
   correction.timestamp_ns = now.timestamp_ns;
   correction.T_new_old =
       unisim::pipeline::compose(now.T_world_kf, unisim::pipeline::inverse(newest.T_world_kf));
+  const unisim::pipeline::Metre metre = run->metre(now.segment);
+  correction.metres_per_unit = metre.per_unit;
+  correction.scale_sigma = metre.sigma;
   newest = now;
   if (config.on_correction != nullptr) config.on_correction(&correction, config.user);
 }
@@ -273,6 +289,8 @@ void unisim_pipeline::on_progress(const Progress& progress) {
     status.keyframes = progress.keyframes;
     status.submaps = progress.submaps;
     status.reason = progress.reason;
+    status.metres_per_unit = progress.metre.per_unit;
+    status.scale_sigma = progress.metre.sigma;
   }
   state = progress.state;
   if (changed && config.on_state != nullptr) config.on_state(state, config.user);
@@ -335,6 +353,27 @@ const char* unisim_pipeline_message(const unisim_pipeline* pipeline) {
 void unisim_pipeline_get_status(const unisim_pipeline* pipeline, unisim_pipeline_status* status) {
   const std::lock_guard<std::mutex> lock(pipeline->mutex);
   copy_out(pipeline->status, status);
+}
+
+int unisim_pipeline_add_odometry(unisim_pipeline* pipeline, const unisim_odometry_step* step) {
+  if (pipeline == nullptr || step == nullptr || step->struct_size < sizeof *step) return 0;
+  const auto share = [](double value) { return value >= 0.0 && value <= 1.0; };
+  const bool sane = step->to_ns > step->from_ns && step->metres >= 0.0 &&
+                    std::isfinite(step->metres) && share(step->sigma) && share(step->common_sigma);
+  if (!sane) return 0;
+  constexpr double kUsualSigma = 0.02;
+  const double common =
+      step->common_sigma > 0.0 ? step->common_sigma : unisim::pipeline::kPathCommonSigma;
+  const double sigma = step->sigma > 0.0 ? step->sigma : kUsualSigma;
+  const bool taken = pipeline->inbox.add({step->from_ns, step->to_ns, step->metres, sigma}, common);
+  return taken ? 1 : 0;
+}
+
+int unisim_pipeline_add_distance(unisim_pipeline* pipeline, const unisim_distance* distance) {
+  if (pipeline == nullptr || distance == nullptr || distance->struct_size < sizeof *distance) {
+    return 0;
+  }
+  return pipeline->inbox.add(*distance) ? 1 : 0;
 }
 
 const char* unisim_reason_name(int32_t reason) { return unisim::pipeline::reason_name(reason); }

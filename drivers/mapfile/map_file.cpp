@@ -15,6 +15,7 @@ namespace {
 constexpr const char* kAbout = "about";
 constexpr const char* kSession = "session";
 constexpr const char* kPredictor = "predictor";
+constexpr const char* kLeft = "left";
 constexpr int32_t kMostText = 4096;
 
 int32_t append(void* context, const void* bytes, size_t size) {
@@ -84,7 +85,7 @@ std::string load_problem(const unisim_session* session, unisim_status status) {
 }  // namespace
 
 void save_map(const std::string& path, About about, const unisim_session* session,
-              unisim_predictor* predictor) {
+              unisim_predictor* predictor, Bytes left) {
   if (!drivers::has_maps(*predictor)) {
     throw Error(Error::Kind::kInput, std::string("maps are kept by the geometric predictor; the ") +
                                          predictor->name + " predictor has none");
@@ -105,9 +106,11 @@ void save_map(const std::string& path, About about, const unisim_session* sessio
     throw Error(Error::Kind::kInput,
                 path + ": part predictor cannot be saved: " + predictor->message(predictor));
   }
-  write_sections(path, {{kAbout, std::move(of_about)},
-                        {kSession, std::move(of_session)},
-                        {kPredictor, std::move(of_predictor)}});
+  std::vector<Section> sections = {{kAbout, std::move(of_about)},
+                                   {kSession, std::move(of_session)},
+                                   {kPredictor, std::move(of_predictor)}};
+  if (!left.empty()) sections.push_back({kLeft, std::move(left)});
+  write_sections(path, sections);
 }
 
 MapFile::MapFile(const std::string& path) : path_(path), sections_(read_sections(path)) {
@@ -124,11 +127,21 @@ void MapFile::fail(const std::string& why) const {
   throw Error(Error::Kind::kInput, path_ + ": " + why);
 }
 
-const Bytes& MapFile::part(const char* name) const {
+const Bytes* MapFile::find(const char* name) const {
   const auto found = std::find_if(sections_.begin(), sections_.end(),
                                   [&](const Section& section) { return section.name == name; });
-  if (found == sections_.end()) fail(std::string("part ") + name + " is missing");
-  return found->bytes;
+  return found == sections_.end() ? nullptr : &found->bytes;
+}
+
+const Bytes& MapFile::part(const char* name) const {
+  const Bytes* const found = find(name);
+  if (found == nullptr) fail(std::string("part ") + name + " is missing");
+  return *found;
+}
+
+Bytes MapFile::left() const {
+  const Bytes* const found = find(kLeft);
+  return found != nullptr ? *found : Bytes();
 }
 
 int32_t MapFile::load_session(unisim_session* session) const {

@@ -3,6 +3,7 @@
 #include "drivers/pipeline/distance_feeder.hpp"
 
 #include <cmath>
+#include <string>
 
 #include "drivers/pipeline/similarity.hpp"
 
@@ -20,20 +21,49 @@ constexpr double kMostSigma = 0.3;
 }  // namespace
 
 void DistanceFeeder::settle(int32_t keyframe) {
-  if (options_.odometry == nullptr || next_ < 0) return;
-  for (; next_ <= keyframe; ++next_) take(next_);
+  take_inbox();
+  if (odometry() == nullptr || next_ < 0) return;
+  for (; next_ <= keyframe; ++next_) {
+    unisim_pose pose{};
+    const bool waits = odometry() == &live_ && session_->get_pose(next_, &pose) == UNISIM_OK &&
+                       live_.ends_before(pose.timestamp_ns);
+    if (waits) return;
+    take(next_);
+  }
+}
+
+const Odometry* DistanceFeeder::odometry() const {
+  if (options_.odometry != nullptr) return options_.odometry;
+  return options_.inbox != nullptr ? &live_ : nullptr;
+}
+
+void DistanceFeeder::take_inbox() {
+  if (options_.inbox == nullptr) return;
+  options_.inbox->take(&steps_, &distances_, &options_.common_sigma);
+  for (const OdometryStep& step : steps_) live_.add(step);
+  for (const unisim_distance& distance : distances_) pass_on(distance);
+}
+
+void DistanceFeeder::pass_on(const unisim_distance& distance) {
+  const unisim_status status = session_->add_distance(distance);
+  if (status == UNISIM_OK) return;
+  messages_->say(MessageKind::kInvalid, "distance of keyframes " + std::to_string(distance.i) +
+                                            " and " + std::to_string(distance.j) + ": " +
+                                            unisim_status_string(status));
 }
 
 void DistanceFeeder::take(int32_t keyframe) {
   unisim_pose pose{};
   Travelled travelled;
   const bool known = session_->get_pose(keyframe, &pose) == UNISIM_OK && pose.confidence > 0 &&
-                     options_.odometry->at(pose.timestamp_ns, &travelled);
+                     odometry()->at(pose.timestamp_ns, &travelled);
   if (!known) {
     first_ = -1;
     return;
   }
-  if (first_ < 0 || pose.segment != first_pose_.segment) return begin(keyframe, pose, travelled);
+  const bool apart = first_ < 0 || pose.segment != first_pose_.segment ||
+                     travelled.stretch != first_travelled_.stretch;
+  if (apart) return begin(keyframe, pose, travelled);
   map_path_ += distance(last_pose_.T_world_kf.t, pose.T_world_kf.t);
   last_pose_ = pose;
   if (keyframe - first_ < span_) return;
@@ -54,8 +84,9 @@ void DistanceFeeder::add(const unisim_pose& pose, const Travelled& travelled) {
   chord.i = first_;
   chord.j = pose.keyframe_id;
   chord.source = UNISIM_METRIC_ODOMETRY;
-  chord.sigma = options_.sigma * path;
-  if (options_.odometry->has_positions()) {
+  chord.sigma = options_.sigma * path + travelled.sigma - first_travelled_.sigma;
+  chord.common_sigma = options_.common_sigma;
+  if (odometry()->has_positions()) {
     chord.metres = distance(first_travelled_.position.data(), travelled.position.data());
   } else {
     const double chord_on_map = distance(first_pose_.T_world_kf.t, pose.T_world_kf.t);

@@ -11,6 +11,12 @@
 
 namespace unisim::pipeline {
 
+/// How long the unit of a segment is, as it was known then.
+struct Metre {
+  double per_unit = 0.0;  ///< metres in a unit; 0: not known, lengths are relative
+  double sigma = 0.0;     ///< its relative standard deviation
+};
+
 /// Where a run stands.
 struct Progress {
   int64_t frames = 0;          ///< taken from the source and tracked
@@ -21,11 +27,10 @@ struct Progress {
   int32_t keyframes = 0;       ///< of this run
   int64_t frames_located = 0;  ///< found in the map, with Options::localise
   int32_t submaps = 0;
-  int32_t state = 0;             ///< UNISIM_STATE_*
-  int32_t reason = 0;            ///< UNISIM_REASON_*, see TrackingReason; 0: all is well
-  int64_t newest_ns = 0;         ///< time stamp of the newest frame
-  double metres_per_unit = 0.0;  ///< of the newest keyframe's segment; 0: relative
-  double scale_sigma = 0.0;      ///< its relative standard deviation
+  int32_t state = 0;      ///< UNISIM_STATE_*
+  int32_t reason = 0;     ///< UNISIM_REASON_*, see TrackingReason; 0: all is well
+  int64_t newest_ns = 0;  ///< time stamp of the newest frame
+  Metre metre;            ///< of the newest keyframe's segment
 };
 
 /// A pose as it was first given out, before any later correction.
@@ -33,6 +38,7 @@ struct LivePose {
   int64_t timestamp_ns;
   unisim_sim3 T_world_cam;
   int32_t keyframe_id;  ///< -1: a frame between keyframes
+  Metre metre = {};     ///< of its segment
 };
 
 /// What came of a frame that was looked for in the map.
@@ -46,6 +52,7 @@ struct LocatedFrame {
   double confidence;        ///< share of the landmarks in view that look as they should, 0..1
   int32_t keyframe_id;      ///< it was compared with
   int32_t inliers;          ///< landmarks that look as they should
+  Metre metre = {};         ///< of its segment
 };
 
 /// A frame between keyframes, held by the keyframe before it.

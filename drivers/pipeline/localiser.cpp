@@ -52,7 +52,8 @@ double Localiser::scale_at(const Common& keyframe) const {
   return ratios.empty() ? 0.0 : drivers::median(&ratios);
 }
 
-bool Localiser::pose(const unisim_location& found, unisim_sim3* T_world_cam) const {
+bool Localiser::pose(const unisim_location& found, unisim_sim3* T_world_cam,
+                     int32_t* segment) const {
   const Common* nearest = nullptr;
   for (const Common& keyframe : keyframes_) {
     if (keyframe.map_segment != found.segment || !(keyframe.scale > 0.0)) continue;
@@ -63,6 +64,7 @@ bool Localiser::pose(const unisim_location& found, unisim_sim3* T_world_cam) con
   if (nearest == nullptr) return false;
   unisim_sim3 T_world_kf = nearest->T_world_kf;
   T_world_kf.s = nearest->scale;
+  *segment = nearest->segment;
   *T_world_cam = compose(T_world_kf, compose(inverse(nearest->T_map_kf), found.T_map_frame));
   return true;
 }

@@ -17,8 +17,9 @@ class Localiser {
   /// @param session, predictor with a map, which must not change; borrowed
   Localiser(const unisim_session* session, unisim_predictor* predictor);
 
+  /// @param[out] segment of the session
   /// @return false: the session has no pose near there
-  bool pose(const unisim_location& found, unisim_sim3* T_world_cam) const;
+  bool pose(const unisim_location& found, unisim_sim3* T_world_cam, int32_t* segment) const;
 
  private:
   /// A keyframe that both know.

@@ -9,10 +9,12 @@
 
 #include "drivers/pipeline/back_lane.hpp"
 #include "drivers/pipeline/distance_feeder.hpp"
+#include "drivers/pipeline/ground_plane.hpp"
 #include "drivers/pipeline/latency_histogram.hpp"
 #include "drivers/pipeline/listener.hpp"
 #include "drivers/pipeline/loop_closer.hpp"
 #include "drivers/pipeline/messages.hpp"
+#include "drivers/pipeline/metre_book.hpp"
 #include "drivers/pipeline/session_client.hpp"
 #include "drivers/pipeline/wide_windows.hpp"
 #include "drivers/predictor.h"
@@ -53,6 +55,7 @@ class MapBuilder {
     bool realtime;        ///< answers of the lane are taken when they are there
     LoopConfig loops;     ///< for a predictor with places
     OdometryOptions odometry;
+    double camera_height = 0.0;  ///< metres over the ground; 0: not known
   };
 
   /// Windows that may wait for the lane in a realtime run; for a newer one the oldest is dropped.
@@ -89,8 +92,8 @@ class MapBuilder {
   /// Last keyframe whose pair was added or rejected; 0 before the first.
   int32_t last_settled() const { return last_settled_; }
 
-  /// Of the newest keyframe's segment after the last optimisation; metres_per_unit 0: not known.
-  const unisim_scale& scale() const { return scale_; }
+  /// How long the units are, as the last optimisation left them.
+  MetreBook& metres() { return metres_; }
 
   const LaneReport& lane_report() const { return report_; }
 
@@ -114,8 +117,10 @@ class MapBuilder {
   Step take_answer(const unisim_request& request, int status,
                    const unisim_window_prediction& window, const std::string& reason,
                    bool* pending);
-  void note_scale();
   void take_unit(int32_t submap_id, const unisim_window_prediction& window);
+  void take_height(int32_t submap_id, const unisim_window_prediction& window);
+  void add_unit(const unisim_submap_unit& unit);
+  bool focal_given() const;
   Step take_window(const unisim_request& request, const unisim_window_prediction& window,
                    bool* pending);
   bool wants_wide_window() const;
@@ -144,7 +149,10 @@ class MapBuilder {
   size_t next_token_ = 0;
   WideWindows wide_windows_;
   DistanceFeeder distances_;
-  unisim_scale scale_{};
+  MetreBook metres_;
+  GroundFinder ground_;
+  int32_t image_width_ = 0;  // of the frames
+  int32_t image_height_ = 0;
   std::unique_ptr<LoopCloser> loops_;  // NULL: none are looked for
   int32_t last_settled_ = 0;
   int32_t newest_ = -1;  // keyframe

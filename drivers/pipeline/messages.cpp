@@ -28,6 +28,7 @@ void Messages::tell_counts() {
                                                       "windows taken in part",
                                                       "windows dropped",
                                                       "predictions refused as invalid",
+                                                      "windows without ground",
                                                       "optimisations without result"};
   for (size_t kind = 0; kind < kKinds; ++kind) {
     const int64_t more = counts_[kind] - kTold;

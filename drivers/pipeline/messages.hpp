@@ -21,6 +21,7 @@ enum class MessageKind {
   kWindowReduced,
   kWindowDropped,
   kInvalid,
+  kNoGround,
   kSolver
 };
 
@@ -45,7 +46,7 @@ class Messages {
 
  private:
   static constexpr int64_t kTold = 5;
-  static constexpr size_t kKinds = 9;
+  static constexpr size_t kKinds = 10;
 
   const std::vector<Listener*>& listeners_;
   std::array<int64_t, kKinds> counts_{};

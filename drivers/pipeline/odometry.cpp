@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "drivers/pipeline/similarity.hpp"
 #include "drivers/sequence/text_file.hpp"
@@ -70,6 +71,26 @@ Odometry Odometry::read(const std::string& path) {
   return odometry;
 }
 
+void Odometry::add(const OdometryStep& step) {
+  const auto entry_at = [](int64_t time_ns) { return 1e-9 * static_cast<double>(time_ns); };
+  const double from_s = entry_at(step.from_ns);
+  Entry last = entries_.empty() ? Entry() : entries_.back();
+  if (entries_.empty() || from_s > last.time_s) {
+    last.time_s = from_s;
+    ++last.travelled.stretch;
+    entries_.push_back(last);
+  }
+  last.time_s = entry_at(step.to_ns);
+  last.travelled.path += step.metres;
+  last.travelled.sigma += step.sigma * step.metres;
+  entries_.push_back(last);
+  while (entries_.size() > kMostSteps) entries_.pop_front();
+}
+
+bool Odometry::ends_before(int64_t timestamp_ns) const {
+  return entries_.empty() || entries_.back().time_s < 1e-9 * static_cast<double>(timestamp_ns);
+}
+
 bool Odometry::at(int64_t timestamp_ns, Travelled* travelled) const {
   const double time_s = 1e-9 * static_cast<double>(timestamp_ns);
   const auto after = std::lower_bound(entries_.begin(), entries_.end(), time_s,
@@ -82,13 +103,15 @@ bool Odometry::at(int64_t timestamp_ns, Travelled* travelled) const {
   if (after == entries_.begin()) return false;
   const Entry& before = *(after - 1);
   const double gap = after->time_s - before.time_s;
-  if (gap > kLongestGap_s) return false;
+  if (gap > kLongestGap_s || before.travelled.stretch != after->travelled.stretch) return false;
   const double share = (time_s - before.time_s) / gap;
   const auto between = [share](double a, double b) { return a + share * (b - a); };
   for (size_t k = 0; k < 3; ++k) {
     travelled->position[k] = between(before.travelled.position[k], after->travelled.position[k]);
   }
   travelled->path = between(before.travelled.path, after->travelled.path);
+  travelled->sigma = between(before.travelled.sigma, after->travelled.sigma);
+  travelled->stretch = before.travelled.stretch;
   return true;
 }
 

@@ -3,7 +3,6 @@
 #include "drivers/pipeline/pipeline.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -13,17 +12,12 @@
 #include "drivers/pipeline/map_builder.hpp"
 #include "drivers/pipeline/messages.hpp"
 #include "drivers/pipeline/pacer.hpp"
+#include "drivers/pipeline/retired_log.hpp"
 #include "drivers/pipeline/similarity.hpp"
+#include "drivers/pipeline/start_watch.hpp"
 #include "drivers/pipeline/tracking_reason.hpp"
 
 namespace unisim::pipeline {
-namespace {
-
-// Frames after which a run without a start says why: a few seconds, and then more and more seldom.
-constexpr int64_t kNoStart = 100;
-constexpr int64_t kNoStartGrowth = 4;
-
-}  // namespace
 
 class Pipeline::Impl {
  public:
@@ -39,7 +33,11 @@ class Pipeline::Impl {
         heap_watch_(heap_watch),
         session_(&result_.times, &heap_watch_),
         messages_(listeners_),
-        selector_(options.keyframes) {}
+        selector_(options.keyframes) {
+    if (!options.retired_folder) return;
+    retired_.emplace(*options.retired_folder);
+    listeners_.push_back(&*retired_);
+  }
 
   Preparation prepare();
   Preparation load(mapfile::MapFile* map);
@@ -47,6 +45,8 @@ class Pipeline::Impl {
   const Result& run();
   const Result& result() const { return result_; }
   unisim_session* session() const { return session_.handle(); }
+  mapfile::Bytes retired() const { return retired_ ? retired_->bytes() : mapfile::Bytes(); }
+  Metre metre(int32_t segment) { return builder_->metres().of(segment); }
 
  private:
   void read_all();
@@ -78,11 +78,11 @@ class Pipeline::Impl {
   KeyframeSelector selector_;
   Pacer pacer_;
   TrackingReason reason_;
+  std::optional<RetiredLog> retired_;
   unisim_session_info before_{};
   std::optional<Localiser> localiser_;  // with Options::localise
   int32_t next_live_ = 0;               // first keyframe whose live pose is not given out yet
-  bool posed_ = false;                  // there has been a pose
-  int64_t next_no_start_ = kNoStart;    // frames at which a run without a start says why
+  StartWatch start_;
 };
 
 Preparation Pipeline::Impl::prepare() {
@@ -93,10 +93,17 @@ Preparation Pipeline::Impl::prepare() {
   // Windows start w - overlap keyframes apart; one shorter window may follow.
   const int32_t step = config_.window_size - config_.window_overlap;
   const int32_t windows = config_.max_keyframes / step + 2;
-  const MapBuilder::Parts parts = {
-      &session_,      predictor_,          &result_.times, &messages_,
-      &listeners_,    config_.window_size, step,           options_.realtime || options_.live,
-      options_.loops, options_.odometry};
+  const MapBuilder::Parts parts = {&session_,
+                                   predictor_,
+                                   &result_.times,
+                                   &messages_,
+                                   &listeners_,
+                                   config_.window_size,
+                                   step,
+                                   options_.realtime || options_.live,
+                                   options_.loops,
+                                   options_.odometry,
+                                   options_.camera_height};
   builder_ = std::make_unique<MapBuilder>(parts, static_cast<size_t>(windows));
   return preparation;
 }
@@ -106,8 +113,10 @@ Preparation Pipeline::Impl::load(mapfile::MapFile* map) {
     Preparation preparation = prepare();
     if (preparation.answer != Preparation::Answer::kReady) return preparation;
   }
+  const mapfile::Bytes left = map->left();
   map->hand_over(session_.handle(), predictor_);
   if (session_.get_info(&before_) != UNISIM_OK) before_ = {};
+  RetiredLog::tell(left, *map, session_.handle(), before_.keyframes, listeners_);
   builder_->go_on_after(before_.keyframes);
   next_live_ = before_.keyframes;
   if (options_.localise) localiser_.emplace(session_.handle(), predictor_);
@@ -236,11 +245,12 @@ bool Pipeline::Impl::locate(const FrameReader::Item& item) {
   ++result_.progress.frames;
   unisim_location found{};
   LocatedFrame located{frame.index, frame.timestamp_ns, UNISIM_STATE_LOST, {}, 0.0, -1, 0};
+  int32_t segment = -1;
   int answer = UNISIM_PREDICTION_OK;
   {
     const ScopedLatency timer(result_.times.track_total);
     answer = predictor_->locate(predictor_, &frame, &found);
-    if (answer == UNISIM_PREDICTION_OK && localiser_->pose(found, &located.T_world_cam)) {
+    if (answer == UNISIM_PREDICTION_OK && localiser_->pose(found, &located.T_world_cam, &segment)) {
       located.state = found.followed != 0 ? UNISIM_STATE_TRACKING : UNISIM_STATE_RELOCALISED;
       located.confidence = static_cast<double>(found.inliers) / std::max(found.in_view, 1);
       located.keyframe_id = found.keyframe_id;
@@ -251,9 +261,12 @@ bool Pipeline::Impl::locate(const FrameReader::Item& item) {
   if (answer != UNISIM_PREDICTION_OK) pass_over(item);
   result_.progress.state = located.state;
   const bool known = located.state != UNISIM_STATE_LOST;
-  result_.progress.frames_located += known ? 1 : 0;
+  if (known) {
+    ++result_.progress.frames_located;
+    located.metre = result_.progress.metre = metre(segment);
+  }
   for (Listener* listener : listeners_) listener->on_located(located);
-  if (known) give_out({frame.timestamp_ns, located.T_world_cam, -1});
+  if (known) give_out({frame.timestamp_ns, located.T_world_cam, -1, located.metre});
   return true;
 }
 
@@ -275,7 +288,7 @@ void Pipeline::Impl::give_out_live() {
     unisim_pose pose{};
     // A held pose (confidence 0) is the old one repeated, not a pose of this keyframe.
     if (session_.get_pose(next_live_, &pose) != UNISIM_OK || pose.confidence == 0) continue;
-    give_out({pose.timestamp_ns, pose.T_world_kf, next_live_});
+    give_out({pose.timestamp_ns, pose.T_world_kf, next_live_, metre(pose.segment)});
   }
 }
 
@@ -289,21 +302,21 @@ void Pipeline::Impl::pose_between(const unisim_frame& frame) {
   for (Listener* listener : listeners_) {
     listener->on_between_pose({frame.timestamp_ns, keyframe, between.T_kf_frame});
   }
-  give_out({frame.timestamp_ns, compose(pose.T_world_kf, between.T_kf_frame), -1});
+  give_out(
+      {frame.timestamp_ns, compose(pose.T_world_kf, between.T_kf_frame), -1, metre(pose.segment)});
 }
 
 /// While windows are asked for beside, a predictor cannot be asked how it stands.
 void Pipeline::Impl::tell_no_start() {
-  if (posed_ || result_.progress.frames < next_no_start_) return;
-  if (predictor_->concurrent_windows != 0) return;
-  next_no_start_ *= kNoStartGrowth;
+  if (predictor_->concurrent_windows != 0 || !start_.due(result_.progress.frames)) return;
   unisim_predictor_info info{};
   predictor_->info(predictor_, &info);
   if (info.no_start != nullptr) messages_.say(info.no_start);
 }
 
 void Pipeline::Impl::give_out(const LivePose& pose) {
-  posed_ = true;
+  start_.note_pose();
+  result_.progress.metre = pose.metre;
   for (Listener* listener : listeners_) listener->on_live_pose(pose);
 }
 
@@ -352,8 +365,6 @@ void Pipeline::Impl::tell_progress() {
     // Nothing changes in the session while frames are only looked for in its map.
     if (!localiser_) result_.progress.state = info.state;
     result_.progress.submaps = info.submaps;
-    result_.progress.metres_per_unit = builder_->scale().metres_per_unit;
-    result_.progress.scale_sigma = builder_->scale().sigma;
     result_.progress.reason = reason_.of_state(result_.progress.state);
   }
   for (Listener* listener : listeners_) listener->on_progress(result_.progress);
@@ -377,21 +388,10 @@ const Result& Pipeline::run() { return impl_->run(); }
 
 const Result& Pipeline::result() const { return impl_->result(); }
 
-unisim_session* Pipeline::session() const { return impl_->session(); }
+mapfile::Bytes Pipeline::retired() const { return impl_->retired(); }
 
-int32_t keyframe_capacity(const unisim_config& session, int64_t frames,
-                          const KeyframeConfig& keyframes, int32_t when_unknown, int32_t places) {
-  if (session.window_submaps > 0) {
-    // As unisim.h asks for. Wide windows and revisions reach back as far as a predictor remembers.
-    const int32_t least = (session.window_submaps + 9) * session.window_size;
-    constexpr int32_t kRemembered = 320;
-    return std::max({least, kRemembered, places});
-  }
-  if (frames < 0) return when_unknown;
-  const int64_t gap = std::max(keyframes.stride > 0 ? keyframes.stride : keyframes.min_gap, 1);
-  const int64_t needed = frames / gap + 2;
-  constexpr int64_t kLargest = std::numeric_limits<int32_t>::max();
-  return static_cast<int32_t>(std::min(needed, kLargest));
-}
+Metre Pipeline::metre(int32_t segment) const { return impl_->metre(segment); }
+
+unisim_session* Pipeline::session() const { return impl_->session(); }
 
 }  // namespace unisim::pipeline

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,15 @@ struct Options {
   KeyframeConfig keyframes;
   LoopConfig loops;
   OdometryOptions odometry;
+  double camera_height = 0.0;  ///< of the camera over the ground, metres; 0: not known
   int32_t queue_frames = 8;    ///< frames decoded ahead
   bool every_frame = false;    ///< also pose the frames between keyframes
   bool realtime = false;       ///< keep to the recorded times, drop late frames
   bool live = false;           ///< the source is a camera: of frames that wait the newest is taken
   double patience_s = 60.0;    ///< a source that gives nothing for so long has failed; 0: never
   bool localise = false;       ///< look for each frame in the map of load(), which stays as it is
+  std::optional<std::string> retired_folder;  ///< what leaves the window is kept for the map file,
+                                              ///< on the disk of this folder, "": in memory
   bool decode_images = false;  ///< decode for the listeners what can be read, also where the
                                ///< predictor needs no images
 };
@@ -96,6 +100,12 @@ class Pipeline {
   /// As it stands: for listeners while run() goes on. decode times come at its end.
   const Result& result() const;
 
+  /// What has left the window, as a map file keeps it; with Options::retired_folder.
+  mapfile::Bytes retired() const;
+
+  /// How long the unit of a segment is, as the last optimisation left it: for listeners.
+  Metre metre(int32_t segment) const;
+
   /// The map, from prepare() until destruction; NULL when prepare() failed.
   unisim_session* session() const;
 
@@ -103,15 +113,5 @@ class Pipeline {
   class Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// Capacity that suits a run. Full batch: the keyframes a sequence can have, never reached. Sliding
-/// window: as many as it needs, and predictors speak of, however long the sequence.
-/// @param session      window_submaps, window_size
-/// @param frames       frames of the sequence, < 0: not known
-/// @param when_unknown returned for a full batch then
-/// @param places       keyframes that loops reach back to; 0: none are looked for by the pipeline
-int32_t keyframe_capacity(const unisim_config& session, int64_t frames,
-                          const KeyframeConfig& keyframes, int32_t when_unknown,
-                          int32_t places = 0);
 
 }  // namespace unisim::pipeline

@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <string_view>
 
+#include "drivers/pipeline/keyframe_selector.hpp"
+#include "unisim/unisim.h"
+
 namespace unisim::pipeline {
 
 /// Submaps of the sliding window: with the usual overlap as many keyframes as the geometric
@@ -21,5 +24,15 @@ inline int32_t usual_overlap(std::string_view predictor, int32_t window_size) {
   const int32_t usual = tracks ? 8 : 2;
   return usual < window_size / 2 ? usual : window_size / 2;
 }
+
+/// Capacity that suits a run. Full batch: the keyframes a sequence can have, never reached. Sliding
+/// window: as many as it needs, and predictors speak of, however long the sequence.
+/// @param session      window_submaps, window_size
+/// @param frames       frames of the sequence, < 0: not known
+/// @param when_unknown returned for a full batch then
+/// @param places       keyframes that loops reach back to; 0: none are looked for by the pipeline
+int32_t keyframe_capacity(const unisim_config& session, int64_t frames,
+                          const KeyframeConfig& keyframes, int32_t when_unknown,
+                          int32_t places = 0);
 
 }  // namespace unisim::pipeline

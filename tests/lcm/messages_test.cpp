@@ -132,6 +132,26 @@ TEST_CASE("an image is bot_core.image_t byte for byte") {
   CHECK(sent[0] == fourcc_turned);
 }
 
+TEST_CASE("the unit that is sent may become known on the way") {
+  LoggedPublisher out;
+  const unisim_pose pose = some_keyframe(7);
+  REQUIRE(unisim_lcm_publish_keyframe(out.get(), &pose, 4, nullptr) == UNISIM_LCM_QUEUED);
+  REQUIRE(unisim_lcm_publisher_set_unit(out.get(), UNISIM_LCM_UNIT_METRIC, 0.02) ==
+          UNISIM_LCM_QUEUED);
+  REQUIRE(unisim_lcm_publish_keyframe(out.get(), &pose, 4, nullptr) == UNISIM_LCM_QUEUED);
+  CHECK(unisim_lcm_publisher_set_unit(out.get(), 7, 0.0) == UNISIM_LCM_REFUSED);
+  CHECK(unisim_lcm_publisher_set_unit(nullptr, UNISIM_LCM_UNIT_METRIC, 0.0) == UNISIM_LCM_REFUSED);
+  CHECK(unisim_lcm_publisher_set_unit(out.get(), UNISIM_LCM_UNIT_METRIC,
+                                      std::numeric_limits<double>::quiet_NaN()) ==
+        UNISIM_LCM_REFUSED);
+  const std::vector<std::string> sent = messages_on("UNISIM_KEYFRAME", out.close());
+  REQUIRE(sent.size() == 2);
+  CHECK(decoded(sent[0], unisim_keyframe_t_decode).unit == UNISIM_STATUS_T_UNIT_RELATIVE);
+  CHECK(decoded(sent[0], unisim_keyframe_t_decode).scale_sigma == 0.0);
+  CHECK(decoded(sent[1], unisim_keyframe_t_decode).unit == UNISIM_STATUS_T_UNIT_METRIC);
+  CHECK(decoded(sent[1], unisim_keyframe_t_decode).scale_sigma == 0.02);
+}
+
 TEST_CASE("a keyframe says its unit, revision and variances") {
   LoggedPublisher out(UNISIM_LCM_UNIT_METRIC);
   const unisim_pose pose = some_keyframe(7);

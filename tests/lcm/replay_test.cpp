@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // unisim-replay --lcm: what is published agrees with itself and with the files of the run.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -110,10 +111,13 @@ std::vector<std::vector<double>> read_tum(const std::string& path) {
 }
 
 // Into run.lcm, beside the folder out.
-void publish_run(const TempFolder& folder) {
-  const ProgramResult result =
-      run_replay({rendered_sequence(), "--out", folder / "out", "--stride", "2", "--quiet",
-                  "--no-report", "--lcm", "file://" + (folder / "run.lcm") + "?mode=w"});
+void publish_run(const TempFolder& folder, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {
+      rendered_sequence(), "--out", folder / "out",
+      "--stride",          "2",     "--quiet",
+      "--no-report",       "--lcm", "file://" + (folder / "run.lcm") + "?mode=w"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const ProgramResult result = run_replay(arguments);
   INFO(result.err);
   REQUIRE(result.code == 0);
 }
@@ -123,7 +127,7 @@ void publish_run(const TempFolder& folder) {
 TEST_CASE("a status says what a start lacks") {
   const TempFolder folder;
   const std::string log = folder / "told.lcm";
-  const ProgramResult run = run_replay({turned_sequence(), "--out", folder / "out", "--quiet",
+  const ProgramResult run = run_replay({still_sequence(), "--out", folder / "out", "--quiet",
                                         "--lcm", "file://" + log + "?mode=w"});
   INFO(run.err);
   CHECK(run.code == 3);
@@ -134,12 +138,18 @@ TEST_CASE("a status says what a start lacks") {
     reason = status.reason;
     unisim_status_t_decode_cleanup(&status);
   }
-  CHECK(reason == UNISIM_STATUS_T_REASON_TURNED);
+  CHECK(reason == UNISIM_STATUS_T_REASON_STILL);
 }
 
 TEST_CASE("what unisim-replay publishes leads a consumer to the poses it writes") {
   const TempFolder folder;
-  publish_run(folder);
+  // In metres the same, though the unit changes on the way.
+  const bool metric = GENERATE(false, true);
+  if (metric) {
+    publish_run(folder, {"--odometry", rendered_sequence() + "/groundtruth.txt"});
+  } else {
+    publish_run(folder);
+  }
   Consumer consumer;
   for (const LogEvent& event : read_log(folder / "run.lcm")) consumer.take(event);
   CHECK(consumer.poses == 40);
@@ -154,6 +164,8 @@ TEST_CASE("what unisim-replay publishes leads a consumer to the poses it writes"
   auto trajectory = decoded(sent.back(), unisim_trajectory_t_decode);
   const std::vector<std::vector<double>> written = read_tum(folder / "out/trajectory.tum");
   REQUIRE(trajectory.n == 40);
+  CHECK(trajectory.unit == (metric ? UNISIM_STATUS_T_UNIT_METRIC : UNISIM_STATUS_T_UNIT_RELATIVE));
+  CHECK((trajectory.scale_sigma > 0.0) == metric);
   REQUIRE(written.size() == 40);
   for (int k = 0; k < 40; ++k) {
     const std::vector<double>& line = written[static_cast<size_t>(k)];
@@ -187,6 +199,54 @@ TEST_CASE("the state is published and the unit is said to be relative") {
   CHECK(last.n > 5);
   unisim_status_t_decode_cleanup(&first);
   unisim_status_t_decode_cleanup(&last);
+}
+
+TEST_CASE("a run that learns its metre says so, and from then on each message is in metres") {
+  const TempFolder folder;
+  publish_run(folder, {"--odometry", rendered_sequence() + "/groundtruth.txt"});
+  const std::vector<std::vector<double>> truth = read_tum(rendered_sequence() + "/groundtruth.txt");
+  bool metric = false;
+  bool told = false;
+  double jump = 1.0;
+  std::vector<std::vector<double>> relative;
+  std::vector<std::vector<double>> metres;
+  for (const LogEvent& event : read_log(folder / "run.lcm")) {
+    if (event.channel == "UNISIM_CORRECTION") {
+      const auto correction = decoded(event.data, unisim_correction_t_decode);
+      const bool now = correction.unit == UNISIM_STATUS_T_UNIT_METRIC;
+      if (now != metric) jump = correction.jump_scale;
+      CHECK((correction.scale_sigma > 0.0) == now);
+      metric = now;
+    } else if (event.channel == "UNISIM_POSE") {
+      const auto pose = decoded(event.data, unisim_pose_t_decode);
+      (metric ? metres : relative)
+          .push_back(
+              {1e-6 * static_cast<double>(pose.utime), pose.pos[0], pose.pos[1], pose.pos[2]});
+    } else if (event.channel == "UNISIM_STATUS") {
+      auto status = decoded(event.data, unisim_status_t_decode);
+      told = status.unit == UNISIM_STATUS_T_UNIT_METRIC;
+      CHECK((status.scale_sigma > 0.0) == told);
+      unisim_status_t_decode_cleanup(&status);
+    }
+  }
+  CHECK(told);
+  REQUIRE(relative.size() > 5);
+  REQUIRE(metres.size() > 10);
+  CHECK(jump != Approx(1.0));
+  // Metres of the way from first to last, over those of the truth.
+  const auto over_truth = [&](const std::vector<std::vector<double>>& poses) {
+    const auto at = [&](double time) {
+      return *std::min_element(truth.begin(), truth.end(), [&](const auto& a, const auto& b) {
+        return std::abs(a[0] - time) < std::abs(b[0] - time);
+      });
+    };
+    const auto apart = [](const std::vector<double>& a, const std::vector<double>& b) {
+      return std::hypot(a[1] - b[1], a[2] - b[2], a[3] - b[3]);
+    };
+    return apart(poses.front(), poses.back()) / apart(at(poses.front()[0]), at(poses.back()[0]));
+  };
+  CHECK(over_truth(metres) == Approx(1.0).margin(0.05));
+  CHECK(over_truth(relative) * jump == Approx(1.0).margin(0.1));
 }
 
 TEST_CASE("unisim-replay refuses an LCM URL that is no good before it begins") {

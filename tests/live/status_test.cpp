@@ -5,9 +5,11 @@
 
 #include "tests/support/catch.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/text.hpp"
 #include "tools/live/figures.hpp"
 #include "tools/live/options.hpp"
 #include "tools/live/pose_age.hpp"
+#include "tools/live/status_text.hpp"
 
 using namespace unisim::live;
 using unisim::pipeline::LivePose;
@@ -35,6 +37,18 @@ TEST_CASE("without the clock the frame that came soonest after its stamp counts 
   ages.on_live_pose(LivePose{now - 500 * kMs, {}, -1});
   ages.on_live_pose(LivePose{now - 700 * kMs, {}, -1});
   CHECK(ages.ages().max_ms() >= 200.0);
+}
+
+TEST_CASE("the line says why there is no start, and whether lengths are metres") {
+  const PoseAge ages;
+  StatusText line(&ages);
+  unisim::pipeline::Progress progress;
+  progress.state = UNISIM_STATE_INIT;
+  progress.reason = UNISIM_REASON_STILL;
+  CHECK(has(line(progress), "init (no start yet: not enough motion)"));
+  CHECK(has(line(progress), ", relative"));
+  progress.metre = {0.5, 0.02};
+  CHECK(has(line(progress), ", metric +- 2 % (1 unit = 0.5 m)"));
 }
 
 TEST_CASE("the warmest zone of a board is its temperature, a board without zones has none") {

@@ -50,8 +50,10 @@ TEST_CASE("a frame found in the predictor's map lies where it was in the session
   const Localiser localiser(run.pipeline->session(), &map.table);
   for (int64_t frame = 1; frame < 190; frame += 13) {
     unisim_sim3 T{};
-    REQUIRE(localiser.pose(found_at(frame, static_cast<int32_t>(frame / 5), 0), &T));
+    int32_t segment = -1;
+    REQUIRE(localiser.pose(found_at(frame, static_cast<int32_t>(frame / 5), 0), &T, &segment));
     INFO(frame);
+    CHECK(segment == 0);
     CHECK(Run::distance(T, frame) < 1e-3);
   }
 }
@@ -63,9 +65,10 @@ TEST_CASE("a frame found in a segment that the session does not know has no pose
   map.other_from = 20;
   const Localiser localiser(run.pipeline->session(), &map.table);
   unisim_sim3 T{};
-  CHECK(localiser.pose(found_at(52, 10, 0), &T));
-  CHECK(localiser.pose(found_at(152, 30, 1), &T));
-  CHECK_FALSE(localiser.pose(found_at(52, 10, 2), &T));
+  int32_t segment = -1;
+  CHECK(localiser.pose(found_at(52, 10, 0), &T, &segment));
+  CHECK(localiser.pose(found_at(152, 30, 1), &T, &segment));
+  CHECK_FALSE(localiser.pose(found_at(52, 10, 2), &T, &segment));
 }
 
 }  // namespace unisim::testing

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Runs longer than the session remembers.
+#include "drivers/pipeline/session_defaults.hpp"
 #include "tests/pipeline/scripted_run.hpp"
 
 using namespace unisim::testing;

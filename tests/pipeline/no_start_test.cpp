@@ -26,6 +26,7 @@ struct Lines : Recorder {
 TEST_CASE("a run without a start says why, more and more seldom") {
   Run run(500);
   Lines lines;
+  run.config.max_keyframes = 128;
   run.listeners = {&lines};
   run.predictor.pending_until = 1000;
   run.predictor.no_start = kWhy;

@@ -108,6 +108,68 @@ TEST_CASE("a run goes on in the map of an earlier one, and saves both") {
   }
 }
 
+TEST_CASE("keyframes that had left the window when the map was saved are known to later runs") {
+  const TempFolder folder;
+  const std::string map = folder / "narrow.map";
+  write_file(folder / "narrow.toml",
+             "[session]\nwindow_size = 3\nwindow_overlap = 1\nwindow_submaps = 2\n"
+             "max_keyframes = 33\n");
+  const auto narrow = [&](const std::string& out, int from, int to, const Arguments& more) {
+    Arguments run = {rendered_sequence(),
+                     "--out",
+                     out,
+                     "--quiet",
+                     "--stride",
+                     "2",
+                     "--config",
+                     folder / "narrow.toml",
+                     "--from",
+                     std::to_string(from),
+                     "--to",
+                     std::to_string(to)};
+    return run_replay(with(run, more));
+  };
+  const std::string first = folder / "first";
+  ProgramResult result = narrow(first, 0, 74, {"--save-map", map});
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  REQUIRE(poses_in(first + "/trajectory.tum") == 37);
+  const std::string second = folder / "second";
+  result = narrow(second, 74, 78, {"--load-map", map, "--save-map", folder / "both.map"});
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  CHECK(poses_in(second + "/trajectory_map.tum") == 39);
+  CHECK(apart(first + "/trajectory.tum", second + "/trajectory_map.tum") < 0.02);
+  const std::string third = folder / "third";
+  result = narrow(third, 78, 80, {"--load-map", folder / "both.map"});
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  CHECK(poses_in(third + "/trajectory_map.tum") == 40);
+}
+
+TEST_CASE("a map that knows its metre is localised in in metres") {
+  const TempFolder folder;
+  const std::string map = folder / "metric.map";
+  const std::string truth = rendered_sequence() + "/groundtruth.txt";
+  REQUIRE(run_replay({rendered_sequence(), "--out", folder / "first", "--quiet", "--stride", "2",
+                      "--odometry", truth, "--save-map", map})
+              .code == 0);
+  const std::string out = folder / "out";
+  const ProgramResult result = run_replay(
+      {rendered_sequence(), "--out", out, "--from", "1", "--load-map", map, "--localise"});
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  CHECK(has(result.out, "metric: 1 unit of the map = "));
+  CHECK(has(read_file(out + "/trajectory.tum"), "# unit of length: metre, known to "));
+  const nlohmann::json summary = summary_in(out);
+  CHECK(summary.at("unit") == "metric");
+  CHECK(summary.at("scale_sigma") > 0.0);
+  const ProgramResult score = run_program(
+      UNISIM_EVAL_PROGRAM, {"ate", truth, out + "/trajectory.tum", "--align", "sim3", "--json"});
+  REQUIRE(score.code == 0);
+  CHECK(nlohmann::json::parse(score.out).at("scale") == Approx(1.0).margin(0.03));
+}
+
 TEST_CASE("a run that only localises finds the frames and leaves the map as it is") {
   const TempFolder folder;
   const std::string out = folder / "out";

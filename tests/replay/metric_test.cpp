@@ -35,7 +35,9 @@ TEST_CASE("a replay with odometry is in metres") {
   // What aligns the trajectory with the truth is no scale any more.
   CHECK(summary["scale"].get<double>() == Approx(1.0).margin(0.03));
   CHECK(has(read_file(out + "/trajectory.tum"), "# unit of length: metre, known to "));
-  CHECK(has(read_file(out + "/trajectory_live.tum"), "# unit of length: arbitrary"));
+  const std::string live = read_file(out + "/trajectory_live.tum");
+  CHECK(has(live, "# unit of length: arbitrary"));
+  CHECK(has(live, "# from here on 1 unit = "));
   CHECK(has(read_file(out + "/keyframes.csv"), ",metric,"));
   CHECK(has(read_file(out + "/report.html"), "metric, "));
 }
@@ -50,6 +52,22 @@ TEST_CASE("a replay without says that it is relative") {
   CHECK(summary["segment_scales"].empty());
   CHECK(has(read_file(out + "/trajectory.tum"), "# unit of length: arbitrary"));
   CHECK(has(read_file(out + "/keyframes.csv"), ",relative,"));
+}
+
+TEST_CASE("the camera's height over the floor makes a replay metric") {
+  const TempFolder folder;
+  const std::string out = folder / "out";
+  // The rendered corridor is walked through at 1.5 m, the eye swaying by some centimetres.
+  const ProgramResult result = run_replay(
+      {rendered_sequence(), "--out", out, "--stride", "2", "--quiet", "--camera-height", "1.5"});
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  const nlohmann::json summary = summary_of(out);
+  CHECK(summary["unit"] == "metric");
+  CHECK(summary["scale"].get<double>() == Approx(1.0).margin(0.1));
+  CHECK(summary["scale_sigma"].get<double>() >= 0.02);
+  CHECK(run_replay({rendered_sequence(), "--out", folder / "no", "--camera-height", "0"}).code ==
+        2);
 }
 
 TEST_CASE("odometry that cannot be read is bad input, in one line") {

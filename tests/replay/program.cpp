@@ -104,7 +104,7 @@ std::string rendered_sequence() { return UNISIM_RENDERED "/320x240"; }
 
 std::string small_sequence() { return UNISIM_RENDERED "/160x120"; }
 
-std::string turned_sequence() { return UNISIM_RENDERED "/turned"; }
+std::string still_sequence() { return UNISIM_RENDERED "/still"; }
 
 void write_file(const std::string& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);

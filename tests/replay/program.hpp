@@ -46,8 +46,8 @@ std::string rendered_sequence();
 /// The same in 160x120.
 std::string small_sequence();
 
-/// 110 frames of 160x120 of a camera that only turns.
-std::string turned_sequence();
+/// 110 frames of 160x120 of a camera at rest, no two with the same pixels.
+std::string still_sequence();
 
 void write_file(const std::string& path, const std::string& text);
 

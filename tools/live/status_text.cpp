@@ -16,9 +16,11 @@ std::string StatusText::operator()(const pipeline::Progress& progress) {
       ages_->ages().percentile_ms(0.5), ages_->ages().percentile_ms(0.95),
       static_cast<long long>(progress.frames_dropped), progress.keyframes, progress.submaps,
       static_cast<double>(resident_bytes()) / kMega);
-  if (progress.metres_per_unit > 0.0) {
-    text += tools::format(", 1 unit = %.3g m +- %.2g %%", progress.metres_per_unit,
-                          100.0 * progress.scale_sigma);
+  if (progress.metre.per_unit > 0.0) {
+    text += tools::format(", metric +- %.2g %% (1 unit = %.3g m)", 100.0 * progress.metre.sigma,
+                          progress.metre.per_unit);
+  } else {
+    text += ", relative";
   }
   const double warmest = temperature_c();
   if (warmest >= 0.0) text += tools::format(", %.0f C", warmest);

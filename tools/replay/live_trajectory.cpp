@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "drivers/pipeline/metre_book.hpp"
+#include "tools/common/text.hpp"
 #include "tools/replay/pose_files.hpp"
 
 namespace unisim::replay {
@@ -22,7 +24,16 @@ void LiveTrajectory::on_live_pose(const pipeline::LivePose& pose) {
     if (file_ < 0) problem_ = std::strerror(errno);
     append(trajectory_header("poses as first given out", 0.0));
   }
+  tell_metre(pose.metre);
   append(trajectory_line({pose.timestamp_ns, pose.T_world_cam}));
+}
+
+void LiveTrajectory::tell_metre(const pipeline::Metre& metre) {
+  if (!pipeline::differs(metre, told_)) return;
+  told_ = metre;
+  append(metre.per_unit > 0.0 ? tools::format("# from here on 1 unit = %.9g m, known to %.2g %%\n",
+                                              metre.per_unit, 100.0 * metre.sigma)
+                              : "# from here on the unit is arbitrary\n");
 }
 
 /// All of the text or none of it: half a line would be read as another pose.

@@ -9,7 +9,8 @@
 namespace unisim::replay {
 
 /// Made with the first pose. A pose is with the system when it has been given out: it is there
-/// however the process ends.
+/// however the process ends. Poses keep the map's unit, which can be read into metres at any time:
+/// a comment says how long it is where that becomes known or changes.
 class LiveTrajectory : public pipeline::Listener {
  public:
   explicit LiveTrajectory(std::string path) : path_(std::move(path)) {}
@@ -24,10 +25,12 @@ class LiveTrajectory : public pipeline::Listener {
   const std::string& problem() const { return problem_; }
 
  private:
+  void tell_metre(const pipeline::Metre& metre);
   void append(const std::string& text);
 
   std::string path_;
   int file_ = -1;
+  pipeline::Metre told_;
   std::string problem_;
 };
 

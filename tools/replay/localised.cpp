@@ -2,6 +2,7 @@
 // Results of a run that only looks for frames in a map.
 #include "tools/replay/localised.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "tools/common/failure.hpp"
@@ -17,12 +18,19 @@ namespace unisim::replay {
 int LocalisedFrames::write(const pipeline::Result& result, const eval::Trajectory& truth,
                            const std::string& format) {
   RunData data;
+  std::vector<pipeline::Metre> metres;
   for (int64_t k = 0; k < frames_.size(); ++k) {
     const pipeline::LocatedFrame frame = frames_.get(k);
     ++counts_.frames;
     if (frame.state == UNISIM_STATE_LOST) continue;
     ++(frame.state == UNISIM_STATE_TRACKING ? counts_.followed : counts_.anew);
     data.trajectory.push_back({frame.timestamp_ns, frame.T_world_cam});
+    metres.push_back(frame.metre);
+  }
+  if (take_metres(metres)) {
+    for (size_t k = 0; k < metres.size(); ++k) {
+      for (double& t : data.trajectory[k].T_world_cam.t) t *= metres[k].per_unit;
+    }
   }
   data.live = data.trajectory;
   const Scores scores = data.trajectory.empty() ? Scores() : score(truth, data);
@@ -38,6 +46,15 @@ int LocalisedFrames::write(const pipeline::Result& result, const eval::Trajector
   return tools::kExitInput;
 }
 
+/// In metres where all of the poses can be. @return whether they can
+bool LocalisedFrames::take_metres(const std::vector<pipeline::Metre>& metres) {
+  const bool known = !metres.empty() &&
+                     std::all_of(metres.begin(), metres.end(),
+                                 [](const pipeline::Metre& metre) { return metre.per_unit > 0.0; });
+  if (known) metre_ = SegmentScale{-1, metres.back().per_unit, metres.back().sigma};
+  return known;
+}
+
 void LocalisedFrames::write_files(const pipeline::Result& result, const Scores& scores,
                                   const std::vector<unisim_stamped_pose>& poses,
                                   const std::string& format) {
@@ -45,7 +62,7 @@ void LocalisedFrames::write_files(const pipeline::Result& result, const Scores& 
   folder_.write_text("trajectory.tum",
                      trajectory_text("frames found in " + options_.load_map +
                                          ", in the frame and unit of its trajectory",
-                                     poses, scale));
+                                     poses, scale, metre_ ? &*metre_ : nullptr));
   folder_.write_text("localised.csv", table());
   const auto ms = [&](double share) { return result.times.track_total.percentile_ms(share); };
   const tools::Json summary = {
@@ -63,6 +80,9 @@ void LocalisedFrames::write_files(const pipeline::Result& result, const Scores& 
       {"located", counts_.found()},
       {"followed", counts_.followed},
       {"looked_for_anew", counts_.anew},
+      {"unit", metre_ ? "metric" : "relative"},
+      {"metres_per_unit", metre_ ? tools::Json(metre_->metres_per_unit) : tools::Json(nullptr)},
+      {"scale_sigma", metre_ ? tools::Json(metre_->sigma) : tools::Json(nullptr)},
       {"ate_rmse_m", scores.ate ? tools::Json(scores.ate->error.rmse) : tools::Json(nullptr)},
       {"timing_ms",
        {{"locate",
@@ -107,6 +127,11 @@ std::string LocalisedFrames::text(const pipeline::Result& result, const Scores& 
   if (scores.ate) {
     std::snprintf(line, sizeof line, "ATE %.4f m RMSE (Sim(3), %zu frames)\n",
                   scores.ate->error.rmse, scores.ate->pairs.size());
+    out += line;
+  }
+  if (metre_) {
+    std::snprintf(line, sizeof line, "metric: 1 unit of the map = %.4g m +- %.2g %%\n",
+                  metre_->metres_per_unit, 100.0 * metre_->sigma);
     out += line;
   }
   for (const std::string& file : folder_.written()) out += "wrote " + file + "\n";

@@ -2,6 +2,7 @@
 // Results of a run that only looks for frames in a map: --localise.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,7 @@ class LocalisedFrames : public pipeline::Listener {
   };
   void write_files(const pipeline::Result& result, const Scores& scores,
                    const std::vector<unisim_stamped_pose>& poses, const std::string& format);
+  bool take_metres(const std::vector<pipeline::Metre>& metres);
   std::string table() const;
   std::string text(const pipeline::Result& result, const Scores& scores) const;
 
@@ -45,6 +47,7 @@ class LocalisedFrames : public pipeline::Listener {
   OutputFolder folder_;
   pipeline::RecordFile<pipeline::LocatedFrame> frames_;
   Counts counts_;
+  std::optional<SegmentScale> metre_;  // of the map; not set: relative
 };
 
 }  // namespace unisim::replay

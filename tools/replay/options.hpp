@@ -24,8 +24,9 @@ struct Options {
   std::string load_map;     ///< map to go on with, "" for none
   bool localise = false;    ///< only look for frames in it
   std::string ground_truth;
-  std::string odometry;          ///< file of what an odometer said, "" for none
-  double odometry_sigma = 0.02;  ///< standard deviation over the path
+  std::string odometry;                   ///< file of what an odometer said, "" for none
+  double odometry_sigma = 0.02;           ///< standard deviation over the path
+  std::optional<double> odometry_common;  ///< relative error that all of it shares
   std::string mask;              ///< image that hides what goes with the camera, "" for none
   std::string model_pair;        ///< files of --predictor onnx
   std::string model_window;      ///< the same where one model serves both

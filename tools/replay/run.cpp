@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "drivers/common/has_places.hpp"
+#include "drivers/pipeline/session_defaults.hpp"
 #include "drivers/recorded/recorded.h"
 #include "drivers/sequence/text_file.hpp"
 #include "tools/common/failure.hpp"
@@ -337,10 +338,14 @@ int run(const Options& options, const Surroundings& around, const std::atomic<bo
   listeners.insert(listeners.end(), input.listeners.begin(), input.listeners.end());
   if (lcm.listener() != nullptr) listeners.push_back(lcm.listener());
   pipeline::Options how = options.settings.pipeline;
-  if (odometry) how.odometry = {&*odometry, options.odometry_sigma};
+  if (odometry) {
+    const double usual = odometry->has_positions() ? 0.0 : pipeline::kPathCommonSigma;
+    how.odometry = {&*odometry, options.odometry_sigma, options.odometry_common.value_or(usual)};
+  }
   // The map has colours, also with no need of images.
   how.decode_images = results.has_value() || options.lcm_images;
   how.localise = options.localise;
+  if (!options.save_map.empty()) how.retired_folder = options.out;
   pipeline::Pipeline pipeline(how, input.source.get(), predictor.get(), config, listeners, &stop,
                               tools::heap_counter());
   prepare(&pipeline);

@@ -23,6 +23,9 @@ constexpr int64_t kMostPoints = 1000000;
 // An odometer that is surer than this is not known, and one less sure says nothing.
 constexpr double kLeastOdometrySigma = 1e-4;
 constexpr double kMostOdometrySigma = 0.3;
+// From a toy to a crane.
+constexpr double kLeastCameraHeight = 0.01;
+constexpr double kMostCameraHeight = 100.0;
 
 const std::map<std::string, uint32_t> kFactors = {
     {"e2v", UNISIM_FACTOR_TWO_VIEW},
@@ -76,6 +79,14 @@ void RunOptions::add_scale_options(CLI::App* app) {
                   "its standard deviation over the path")
       ->capture_default_str()
       ->transform(in_range(Range::number(kLeastOdometrySigma, kMostOdometrySigma)))
+      ->group(group);
+  app->add_option("--odometry-common", options_->odometry_common,
+                  "relative error that all of it shares (default: 0; of a path alone 0.05)")
+      ->transform(in_range(Range::number(0.0, 1.0)))
+      ->group(group);
+  app->add_option("--camera-height", options_->settings.pipeline.camera_height,
+                  "of the camera over the ground it drives on, metres: results are in metres")
+      ->transform(in_range(Range::number(kLeastCameraHeight, kMostCameraHeight)))
       ->group(group);
 }
 

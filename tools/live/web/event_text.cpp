@@ -143,10 +143,14 @@ std::string EventText::status(const View& view, double silent_s) const {
   constexpr double kMega = 1e6;
   const unisim_session_info& session = view.session;
   const double warmest = temperature_c();
+  const pipeline::Metre& metre = view.progress.metre;
   return event("status", {{"source", source_},
                           {"version", replay::version_text()},
                           {"state", replay::state_name(view.progress.state)},
                           {"reason", pipeline::reason_name(view.progress.reason)},
+                          {"unit", metre.per_unit > 0.0 ? "metric" : "relative"},
+                          {"scale_sigma", metre.sigma},
+                          {"metres_per_unit", metre.per_unit},
                           {"confidence", view.confidence},
                           {"segment", view.segment},
                           {"map_revision", session.map_revision},

@@ -46,6 +46,10 @@
     text('keyframes-note', count(s.submaps) + ' submaps, ' + count(s.loops) + ' loops');
     figure('memory', s.memory_mb.toFixed(0), 'MB');
     text('memory-note', s.temperature_c === null ? '' : 'board at ' + s.temperature_c.toFixed(0) + ' \u00b0C');
+    const metric = s.unit === 'metric';
+    figure('unit', metric ? 'metres' : 'relative');
+    text('unit-note', metric ? '\u00b1 ' + (100 * s.scale_sigma).toPrecision(2) + ' %, 1 unit = '
+      + s.metres_per_unit.toPrecision(3) + ' m' : 'no metre is known');
     showStages(s.stages);
     showMessages(s.messages);
     showBanner();
@@ -157,7 +161,10 @@
   }
 
   function drawGrid(pen, width, height, place, box, unit) {
-    const step = roundLength(90 / unit);
+    const metric = status && status.unit === 'metric';
+    const metres = metric ? status.metres_per_unit : 1;
+    const length = roundLength(90 / unit * metres);
+    const step = length / metres;
     pen.strokeStyle = colour('edge');
     pen.lineWidth = 1;
     pen.beginPath();
@@ -178,7 +185,8 @@
     pen.lineTo(14 + step * unit, height - 13); pen.lineTo(14 + step * unit, height - 18);
     pen.stroke();
     pen.font = '12px system-ui, sans-serif';
-    pen.fillText(+step.toPrecision(1) + (step === 1 ? ' unit' : ' units') + ' of the map', 20, height - 20);
+    const name = metric ? ' m' : (length === 1 ? ' unit' : ' units') + ' of the map';
+    pen.fillText(+length.toPrecision(1) + name, 20, height - 20);
   }
 
   function drawPath(pen, list, toPage, style, width) {
