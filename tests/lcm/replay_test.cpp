@@ -127,8 +127,8 @@ void publish_run(const TempFolder& folder, const std::vector<std::string>& more 
 TEST_CASE("a status says what a start lacks") {
   const TempFolder folder;
   const std::string log = folder / "told.lcm";
-  const ProgramResult run = run_replay({still_sequence(), "--out", folder / "out", "--quiet",
-                                        "--lcm", "file://" + log + "?mode=w"});
+  const ProgramResult run = run_replay(
+      {still_sequence(), "--out", folder / "out", "--quiet", "--lcm", "file://" + log + "?mode=w"});
   INFO(run.err);
   CHECK(run.code == 3);
   CHECK(has(run.err, "no start"));

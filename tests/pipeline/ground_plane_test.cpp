@@ -10,7 +10,6 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"
 
-
 using unisim::pipeline::GroundFinder;
 using unisim::pipeline::GroundPlane;
 
