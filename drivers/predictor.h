@@ -36,30 +36,30 @@ extern "C" {
 #define UNISIM_PREDICTION_OK 0
 #define UNISIM_PREDICTION_PENDING 1  /**< not known yet: ask again after the next keyframe */
 #define UNISIM_PREDICTION_REJECTED 2 /**< cannot be made; message() says why */
-#define UNISIM_PREDICTION_FAILED \
-  3 /**< the predictor is of no more use; message() says what to do */
+/** The predictor is of no more use; message() says what to do. */
+#define UNISIM_PREDICTION_FAILED 3
 
 /** Why tracking has a hard time, or the image of a frame is of little use. */
 #define UNISIM_REASON_NONE 0
 #define UNISIM_REASON_COVERED 1  /**< dark and nothing to be seen: the lens is covered, no light */
 #define UNISIM_REASON_EXPOSURE 2 /**< most pixels as dark or as bright as can be */
 #define UNISIM_REASON_BLUR 3     /**< much softer than the frames before: moved, out of focus */
-#define UNISIM_REASON_TEXTURE                                                                      \
-  4                               /**< too little to follow: a bare wall, or what was seen is gone \
-                                   */
+/** Too little to follow: a bare wall,
+ *  or what was seen is gone. */
+#define UNISIM_REASON_TEXTURE 4
 #define UNISIM_REASON_DUPLICATE 5 /**< the same pixels as the frame before: nothing new */
 #define UNISIM_REASON_TIME_GAP 6  /**< much later after the frame before than usual */
 #define UNISIM_REASON_START 7     /**< no start found yet; a predictor does not give it */
-#define UNISIM_REASON_PREDICTION                                   \
-  8 /**< images look well, but the prediction was refused: see the \
-       messages; a predictor does not give it */
+/** Images look well, but the prediction was refused:
+ *  see the messages; a predictor does not give it. */
+#define UNISIM_REASON_PREDICTION 8
 /* While there is no map yet: what the newest keyframe lacked for a start. */
 #define UNISIM_REASON_STILL 9     /**< hardly moved */
 #define UNISIM_REASON_TURNED 10   /**< only turned on the spot */
 #define UNISIM_REASON_PARALLAX 11 /**< moved too little for how far off all is */
-#define UNISIM_REASON_LOST_TRACKS                                                                \
-  12                               /**< too few features are still seen: keyframes too far apart \
-                                    */
+/** Too few features are still seen:
+ *  keyframes too far apart. */
+#define UNISIM_REASON_LOST_TRACKS 12
 #define UNISIM_REASON_NOT_RIGID 13 /**< does not move as a rigid scene before one camera */
 #define UNISIM_REASON_COUNT 14     /**< one more than the last */
 
@@ -140,8 +140,8 @@ typedef struct unisim_feature {
 #define UNISIM_PLACE_JOIN 2 /**< to join the older one's segment to its own */
 
 /** A keyframe compared with an older one that looks like it. With place_descriptor() depth is
- * compared in place of features, on cells: `matches` of them, `pose_inliers` and `in_view` lie in
- * the other view, `patch_inliers` have the depth that the other view has there. */
+ *  compared in place of features, on cells: `matches` of them, `pose_inliers` and `in_view` lie in
+ *  the other view, `patch_inliers` have the depth that the other view has there. */
 typedef struct unisim_place_report {
   int32_t keyframe;      /**< the newer one */
   int32_t candidate;     /**< the older one */
@@ -236,8 +236,8 @@ struct unisim_predictor {
   int (*next_revision)(unisim_predictor* predictor, unisim_window_revision* out);
 
   /** Next wide window: keyframes spread over all that the predictor holds, measured together after
-   * it has adjusted them all anew. No answer to a request: it ties together what windows of
-   * neighbours cannot, and is taken as a loop is. Optional. Ask until it says PENDING.
+   *  it has adjusted them all anew. No answer to a request: it ties together what windows of
+   *  neighbours cannot, and is taken as a loop is. Optional. Ask until it says PENDING.
    * @param max_views views to give at most */
   int (*next_wide_window)(unisim_predictor* predictor, int32_t max_views,
                           unisim_window_prediction* out);
@@ -246,7 +246,7 @@ struct unisim_predictor {
   int (*frame_pose)(unisim_predictor* predictor, unisim_frame_pose* out);
 
   /** End of the recording: finish what runs in the background, so that last revisions can be asked
-   * for; optional. */
+   *  for; optional. */
   int (*finish)(unisim_predictor* predictor);
 
   void (*info)(unisim_predictor* predictor, unisim_predictor_info* out);
@@ -265,7 +265,7 @@ struct unisim_predictor {
   int32_t (*features)(unisim_predictor* predictor, const unisim_feature** features);
 
   /* Loops, for predictors without a map of their own: those that have one close them in it. Both
-   * functions or none; a table of a smaller struct_size has none, and its run has no loops. */
+   *  functions or none; a table of a smaller struct_size has none, and its run has no loops. */
 
   /** What keyframe `id`, the newest, looks like. From this call to release_place() the predictor
    *  keeps what it needs to answer multi_view() of this keyframe together with any others that are
@@ -278,7 +278,7 @@ struct unisim_predictor {
   void (*release_place)(unisim_predictor* predictor, int32_t id);
 
   /* Maps that outlive the run, for predictors with a map of their own. All four functions or none;
-   * a table of a smaller struct_size has none. */
+   *  a table of a smaller struct_size has none. */
 
   /** Write the map. It stays as it is; what runs in the background is not waited for.
    *  @param write called with the bytes in order, from within

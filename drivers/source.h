@@ -30,13 +30,13 @@ typedef struct unisim_stamped_pose {
 
 #define UNISIM_FRAME_OK 0
 #define UNISIM_FRAME_END 1 /**< no more frames */
-#define UNISIM_FRAME_BAD \
-  2 /**< this frame is unreadable: message() says why; the next call goes on */
-#define UNISIM_FRAME_FAILED \
-  3 /**< the source is of no more use: message() says what, where, what to do */
+/** This frame is unreadable: message() says why; the next call goes on. */
+#define UNISIM_FRAME_BAD 2
+/** The source is of no more use: message() says what, where, what to do. */
+#define UNISIM_FRAME_FAILED 3
 
 /** For next_frame(): as 1, but a frame whose pixels cannot be had is UNISIM_FRAME_OK with
- * image.data NULL, and message() says why. A source may take it as 1. */
+ *  image.data NULL, and message() says why. A source may take it as 1. */
 #define UNISIM_DECODE_IF_READABLE 2
 
 /** A source. Free with destroy(source). */

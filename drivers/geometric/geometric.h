@@ -18,13 +18,13 @@ extern "C" {
 /* What is known of the lens. */
 #define UNISIM_DISTORTION_UNKNOWN 0 /**< one radial term is estimated */
 #define UNISIM_DISTORTION_PINHOLE 1 /**< OpenCV's: k1 k2 p1 p2 k3 k4 k5 k6; all 0: none */
-#define UNISIM_DISTORTION_FISHEYE                                 \
-  2 /**< OpenCV's fisheye (Kannala-Brandt, "equidistant"): k1..k4 \
-     */
+/** OpenCV's fisheye (Kannala-Brandt, "equidistant"):
+ *  k1..k4. */
+#define UNISIM_DISTORTION_FISHEYE 2
 #define UNISIM_DISTORTION_TERMS 8
 
 /** Everything a geometric predictor is made with. Its memory follows from these numbers and the
- * size of the first image. */
+ *  size of the first image. */
 typedef struct unisim_geometric_config {
   uint32_t struct_size;
   int32_t max_tracks;       /**< features followed at a time, 50..2000 (300) */
@@ -82,7 +82,7 @@ UNISIM_API unisim_predictor* unisim_geometric_create(const unisim_geometric_conf
                                                      char* message, size_t capacity);
 
 /** Read a calibrated camera from a YAML file as OpenCV's calibration programs, ROS (calibration
- * file or camera_info) and EuRoC write it.
+ *  file or camera_info) and EuRoC write it.
  *  @param      path    file
  *  @param[in,out] config gets focal lengths, principal point, distortion and image size
  *  @param[out] message one line on failure; may be NULL
@@ -101,8 +101,8 @@ UNISIM_API int32_t unisim_geometric_camera_fits(const unisim_geometric_config* c
                                                 size_t capacity);
 
 /** A frame's image as the predictor looks at it: what its depth maps and focal lengths are of. With
- * a calibrated lens that of the ideal camera, else the image itself. To the front group of
- * predictor.h.
+ *  a calibrated lens that of the ideal camera, else the image itself. To the front group of
+ *  predictor.h.
  *  @param      predictor any; of another kind the image itself is given
  *  @param      image     of the frame observed last
  *  @param[out] out       of the same size; valid until the next call of the front group */

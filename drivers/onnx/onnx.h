@@ -3,7 +3,7 @@
  *  Predictors on feed-forward models in ONNX format that keep the model contract of README.md.
  *
  *  ONNX Runtime (1.21 or newer) is opened when a model is, not linked. After the models are loaded
- * and warm nothing here takes memory from the heap; what ONNX Runtime does inside is its own.
+ *  and warm nothing here takes memory from the heap; what ONNX Runtime does inside is its own.
  */
 #ifndef UNISIM_DRIVERS_ONNX_ONNX_H
 #define UNISIM_DRIVERS_ONNX_ONNX_H
@@ -62,7 +62,7 @@ UNISIM_API unisim_predictor* unisim_onnx_create(const unisim_onnx_config* config
                                                 char* message, size_t capacity);
 
 /** Views of a window that model and memory budget allow: the session's window_size may not be
- * larger.
+ *  larger.
  *  @param predictor of unisim_onnx_create()
  *  @return 2..config.window_size */
 UNISIM_API int32_t unisim_onnx_window_size(const unisim_predictor* predictor);
@@ -74,7 +74,7 @@ UNISIM_API int32_t unisim_onnx_window_size(const unisim_predictor* predictor);
 UNISIM_API const char* unisim_onnx_note(const unisim_predictor* predictor, int32_t index);
 
 /** Times that encoders of split models ran since they were loaded: once for each keyframe and
- * encoder.
+ *  encoder.
  *  @param predictor of unisim_onnx_create()
  *  @return 0 without encoder */
 UNISIM_API int64_t unisim_onnx_encoder_runs(const unisim_predictor* predictor);
@@ -102,7 +102,7 @@ UNISIM_API int32_t unisim_onnx_descriptor_size(const unisim_onnx_descriptor* des
  *  @param      descriptor live descriptor model
  *  @param[in]  image      all images of the size of the first
  *  @param[out] values     unisim_onnx_descriptor_size() floats, unit length; valid until the next
- * call
+ *  call
  *  @return UNISIM_PREDICTION_OK, _REJECTED, _FAILED */
 UNISIM_API int unisim_onnx_descriptor_embed(unisim_onnx_descriptor* descriptor,
                                             const unisim_image* image, const float** values);

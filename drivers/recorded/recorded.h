@@ -17,11 +17,11 @@ extern "C" {
 #endif
 
 /** A predictor that hands every call on to another one and stores the answers. Each record is in
- * the file when the call that made it returns; destroy() closes the file. When the file cannot be
+ *  the file when the call that made it returns; destroy() closes the file. When the file cannot be
  *  written any more (full disk) recording stops, what is written stays readable, the run goes on
- * and unisim_recorder_problem() says so.
+ *  and unisim_recorder_problem() says so.
  *  @param inner         owned from now on, destroyed with the recorder; on failure still the
- * caller's
+ *  caller's
  *  @param path          file to make; one that exists is replaced
  *  @param sequence_name stored in the file; may be NULL
  *  @param message       one line on failure: what, where, what to do; may be NULL
@@ -38,20 +38,20 @@ UNISIM_API unisim_predictor* unisim_recorder_create(unisim_predictor* inner, con
 UNISIM_API const char* unisim_recorder_problem(const unisim_predictor* recorder);
 
 /** A predictor that gives the predictions of a file, with no images and no model. Only where the
- * file names neither frames nor keyframes needs_images is 1: which images could be read then
- * decides which are keyframes. Where the file names its keyframes, observe() sets keyframe_advice
- * to 1 or -1; a pair or window is PENDING until the moment it was answered in the recording and
- * REJECTED when the file does not hold it. Memory: a few words per record and one record.
+ *  file names neither frames nor keyframes needs_images is 1: which images could be read then
+ *  decides which are keyframes. Where the file names its keyframes, observe() sets keyframe_advice
+ *  to 1 or -1; a pair or window is PENDING until the moment it was answered in the recording and
+ *  REJECTED when the file does not hold it. Memory: a few words per record and one record.
  *  @param path         file written by a recorder or by tools/export/unisim_record.py
  *  @param message      one line: the reason on failure; on success a note about a recording that
- * was cut off, else ""; may be NULL
+ *  was cut off, else ""; may be NULL
  *  @param message_size bytes of message
  *  @return the predictor, NULL when the file is unreadable, damaged or of a newer version */
 UNISIM_API unisim_predictor* unisim_recorded_open(const char* path, char* message,
                                                   size_t message_size);
 
 /** How the windows of a recording follow each other: a session asks for the same ones when its
- * window_size and window_overlap are these.
+ *  window_size and window_overlap are these.
  *  @param recorded of unisim_recorded_open()
  *  @param[out] size, overlap keyframes
  *  @return 1; 0 when the file holds fewer than two windows and does not tell */
@@ -65,7 +65,7 @@ UNISIM_API int unisim_recorded_windows(const unisim_predictor* recorded, int32_t
 UNISIM_API const char* unisim_predictor_origin(const unisim_predictor* predictor);
 
 /** The predictor inside a recorder, or in recorders one in another; any other is itself. For
- * functions that one kind of predictor has beside its table. It stays the recorder's. */
+ *  functions that one kind of predictor has beside its table. It stays the recorder's. */
 UNISIM_API unisim_predictor* unisim_predictor_inside(unisim_predictor* predictor);
 
 /** Size of the images a recording was made from, which need not be there any more.

@@ -19,8 +19,8 @@
  *  stretched where their pixels are not square.
  *
  *  Lists of images are sorted by time; seconds, milli-, micro- and nanoseconds are told apart by
- * the steps. Where a format has no times, that of an image is its number at the frame rate: an
- * image that is missing is a gap in time. Names that begin with a dot are no input.
+ *  the steps. Where a format has no times, that of an image is its number at the frame rate: an
+ *  image that is missing is a gap in time. Names that begin with a dot are no input.
  */
 #ifndef UNISIM_DRIVERS_REPLAY_SEQUENCE_H
 #define UNISIM_DRIVERS_REPLAY_SEQUENCE_H

@@ -3,9 +3,9 @@
  *  Cameras of Linux as sources of frames, through the kernel's own interface and nothing else.
  *
  *  Made for tracking: of the frames that are ready the newest is given and the others are dropped,
- * so that nothing waits in a queue. Frames are gray: GREY and NV12 are given in place, YUYV and
- * MJPG through one buffer that is taken at opening. After opening nothing here takes memory from
- * the heap, except OpenCV for MJPG and when a lost camera is opened again.
+ *  so that nothing waits in a queue. Frames are gray: GREY and NV12 are given in place, YUYV and
+ *  MJPG through one buffer that is taken at opening. After opening nothing here takes memory from
+ *  the heap, except OpenCV for MJPG and when a lost camera is opened again.
  *
  *  A frame's time is that of CLOCK_MONOTONIC, nanoseconds, as near to its exposure as the camera's
  *  driver says; it grows from frame to frame and is never ahead of the clock. Its index counts the

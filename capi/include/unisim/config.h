@@ -131,7 +131,7 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_session_create(unisim_session**
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_session_reset(unisim_session* session);
 
 /** End a session; the arena is the caller's again. NULL is fine. As long as the arena is not used
- * for anything else, later calls with this session are UNISIM_ERR_INVALID_ARGUMENT. */
+ *  for anything else, later calls with this session are UNISIM_ERR_INVALID_ARGUMENT. */
 UNISIM_API void unisim_session_destroy(unisim_session* session);
 
 #ifdef __cplusplus

@@ -5,7 +5,7 @@
  *
  *  One camera alone does not see scale. A host that knows distances says them; poses stay in the
  *  map's own unit, so that nothing jumps when one comes, and unisim_get_scale() says how many
- * metres that unit has. Submaps whose units disagree with the distances are drawn back by the next
+ *  metres that unit has. Submaps whose units disagree with the distances are drawn back by the next
  *  unisim_optimize(): scale that drifts is corrected, and that is reported as any other correction.
  *  What is measured belongs to submaps: it counts from the unisim_optimize() after a submap over
  *  the keyframes has come, and goes along when they retire, merge or join another segment. */

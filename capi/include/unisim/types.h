@@ -28,9 +28,9 @@ typedef int32_t unisim_status;
 #define UNISIM_OK 0                   /**< done */
 #define UNISIM_ERR_INVALID_ARGUMENT 1 /**< NULL, non-finite, unknown id: caller's mistake */
 #define UNISIM_ERR_CAPACITY 2 /**< a declared capacity or the caller's buffer is too small */
-#define UNISIM_ERR_OUT_OF_MEMORY                                                                   \
-  3                               /**< the arena is smaller than unisim_arena_size() says, or that \
-                                       is more than this machine can address */
+/** The arena is smaller than unisim_arena_size() says, or that is more than this machine can
+ *  address. */
+#define UNISIM_ERR_OUT_OF_MEMORY 3
 #define UNISIM_ERR_NOT_READY 4    /**< nothing to do or to give yet */
 #define UNISIM_ERR_NUMERICAL 5    /**< no descent or not positive definite; poses stay */
 #define UNISIM_ERR_INTERNAL 6     /**< broken invariant; all later calls until reset say so */

@@ -12,7 +12,7 @@
  *  - Camera frames have OpenCV axes (x right, y down, z forward). Poses are camera-to-world.
  *  - Tangent order is translation 3, rotation 3, log-scale 1; updates act on the right.
  *  - Quaternions are x y z w. Lengths have no unit: one camera alone does not see scale (metric.h).
- * Time is in nanoseconds of the host's choice of clock. Indices start at 0.
+ *  Time is in nanoseconds of the host's choice of clock. Indices start at 0.
  *  - Every struct with `struct_size` is filled by its caller with sizeof the struct. A size below
  *    that of the first release is UNISIM_ERR_ABI_MISMATCH; a smaller one than today's takes
  *    defaults for the missing tail; a larger one (up to 65536 bytes) is accepted when the unknown
@@ -85,9 +85,9 @@ typedef struct unisim_two_view {
  *  @param[in] two_view see unisim_two_view
  *  @return UNISIM_OK (refused for its quality too: then unisim_get_info() counts it and says why,
  *          the pose is held and the state is DEGRADED or LOST); UNISIM_ERR_INVALID_ARGUMENT on
- * NULL, non-finite numbers, scale other than 1, ids not consecutive (one between is of
- * i's segment, i has no pose) or already given; UNISIM_ERR_RETIRED when i, before a gap, has left
- * the sliding window; UNISIM_ERR_NOT_READY when keyframe j or the pair before is not there yet */
+ *  NULL, non-finite numbers, scale other than 1, ids not consecutive (one between is of
+ *  i's segment, i has no pose) or already given; UNISIM_ERR_RETIRED when i, before a gap, has left
+ *  the sliding window; UNISIM_ERR_NOT_READY when keyframe j or the pair before is not there yet */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_add_two_view(unisim_session* session,
                                                               const unisim_two_view* two_view);
 
@@ -149,7 +149,7 @@ typedef struct unisim_submap_update {
  *  @param[in] update see unisim_submap_update
  *  @return UNISIM_OK (refused for its quality too), UNISIM_ERR_INVALID_ARGUMENT (also: unknown
  *          submap, other count, ratios that lead out of the range of numbers), UNISIM_ERR_RETIRED
- * when the submap is no longer kept */
+ *  when the submap is no longer kept */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_update_submap(unisim_session* session,
                                                                const unisim_submap_update* update);
 
