@@ -165,7 +165,14 @@ Step MapBuilder::take_window(const unisim_request& request, const unisim_window_
     return reject(request, MessageKind::kInvalid, "prediction is not finite or has a wrong size");
   }
   if (status != UNISIM_OK) return session_failed("unisim_add_submap", status);
-  if (submap_id < 0) return Step::kOk;
+  if (submap_id < 0) {
+    unisim_session_info info{};
+    const bool known = parts_.session->get_info(&info) == UNISIM_OK;
+    parts_.messages->say(MessageKind::kWindowRejected,
+                         request_name(request) + ": " +
+                             refusal_text(known ? info.refused_window : unisim_refusal{}));
+    return Step::kOk;
+  }
   tokens_[next_token_++ % tokens_.size()] = {window.token, submap_id};
   take_unit(submap_id, window);
   take_height(submap_id, window);

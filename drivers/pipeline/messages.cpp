@@ -2,6 +2,8 @@
 // Messages of a run.
 #include "drivers/pipeline/messages.hpp"
 
+#include <cstdio>
+
 namespace unisim::pipeline {
 
 std::string request_name(const unisim_request& request) {
@@ -9,6 +11,27 @@ std::string request_name(const unisim_request& request) {
   const std::string last = std::to_string(request.keyframe_ids[request.count - 1]);
   return request.kind == UNISIM_REQUEST_PAIR ? "pair " + first + "," + last
                                              : "window of keyframes " + first + ".." + last;
+}
+
+std::string refusal_text(const unisim_refusal& refusal) {
+  const auto beyond = [&refusal](const char* what) {
+    std::array<char, 128> text{};
+    static_cast<void>(std::snprintf(text.data(), text.size(), "%s %.3g, over %.3g", what,
+                                    refusal.value, refusal.limit));
+    return std::string(text.data());
+  };
+  switch (refusal.reason) {
+    case UNISIM_REFUSED_SIGMA:
+      return beyond("left out, its poses are uncertain by");
+    case UNISIM_REFUSED_SCATTER:
+      return beyond("left out, its depths disagree with the map, their ratios scatter by");
+    case UNISIM_REFUSED_VIEWS:
+      return "left out, fewer than two views have depth in common with the map";
+    case UNISIM_REFUSED_RANGE:
+      return "left out, its unit is out of the range of numbers";
+    default:
+      return "left out";
+  }
 }
 
 void Messages::say(MessageKind kind, const std::string& line) {

@@ -28,6 +28,9 @@ enum class MessageKind {
 /// "pair 3,4" or "window of keyframes 0..15".
 std::string request_name(const unisim_request& request);
 
+/// Why the session left a prediction out, to stand after its name.
+std::string refusal_text(const unisim_refusal& refusal);
+
 class Messages {
  public:
   explicit Messages(const std::vector<Listener*>& listeners) : listeners_(listeners) {}

@@ -162,12 +162,19 @@ TEST_CASE("a camera that comes back elsewhere and walks to where it was has one 
   const int before = run.keyframes();
   for (int k = 0; k < 30; ++k) run.show(GrayImage(size_t{kWidth} * kHeight, 0), k % kStride == 0);
   const int dark = run.keyframes();
+  int held_back = 0;  // keyframes at which no window is given since two segments are being joined
   for (int step = 60; step < 220; ++step) {
     CameraPlace place = walk(step);
     const double aside = std::clamp(1.3 - 0.013 * (step - 110), 0.0, 1.3);
     place.R = place.R * Eigen::AngleAxisd(aside, Eigen::Vector3d::UnitY()).toRotationMatrix();
     show(place, step);
+    if (step % kStride == 0 && run.info().joined == 1) {
+      held_back += run.window(run.keyframes() - 8, 8).empty() ? 1 : 0;
+    }
   }
+  CHECK(held_back > 0);
+  CHECK(held_back < 10);
+  CHECK(run.window(run.keyframes() - 8, 8).size() == 8);
   CHECK(run.info().restarts == 1);
   REQUIRE(run.info().joined == 1);
   REQUIRE(run.table()->finish(run.table()) == UNISIM_PREDICTION_OK);

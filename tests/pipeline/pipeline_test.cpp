@@ -63,6 +63,14 @@ TEST_CASE("a rejected pair is told, counted and survived") {
   CHECK(run.listener.told("pair 11,12: scripted"));
 }
 
+TEST_CASE("a window that the map leaves out is told with the reason") {
+  Run run;
+  run.predictor.uncertain_windows = {6};
+  const Result& result = run.go();
+  CHECK(result.outcome == Outcome::kFinished);
+  CHECK(run.listener.told("window of keyframes 6..13: left out, its poses are uncertain by 0.5"));
+}
+
 TEST_CASE("a rejected window is told and survived") {
   Run run;
   run.predictor.rejected_windows = {6};

@@ -213,6 +213,7 @@ int ScriptedPredictor::multi_view(const int32_t* ids, int32_t count,
     window_.poses.back().q[2] = std::numeric_limits<double>::quiet_NaN();
   }
   give_window(&window_, out);
+  if (uncertain_windows.count(ids[0]) != 0) out->center_sigma = 0.5;
   out->token = ++next_token_;
   if (metres > 0.0) {
     out->metres_per_unit = metres / window_unit(ids[0]);

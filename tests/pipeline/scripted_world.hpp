@@ -71,15 +71,16 @@ class ScriptedPredictor {
   std::set<int32_t> rejected_windows;
   std::set<int32_t> failing_windows;
   std::set<int32_t> nan_windows;
-  bool wrong_window_ids = false;  ///< windows name keyframes that do not exist
-  int64_t fails_at = -1;          ///< frame at which observe() fails
-  double window_bend = 0.0;       ///< path of a window over that of its square: drift
-  double window_noise = 0.0;      ///< added to positions until the revision takes it away
-  double metres = 0.0;            ///< of a true length, said with each window; 0: not said
-  bool revises = false;           ///< every window is revised once, at finish()
-  int32_t wide_every = 0;         ///< keyframes from one exact wide window to the next; 0: none
-  int32_t wide_given = 0;         ///< of them, the newest that was given
-  bool revises_early = false;     ///< not at finish(), but as soon as it is asked
+  std::set<int32_t> uncertain_windows;  ///< center_sigma far beyond any gate
+  bool wrong_window_ids = false;        ///< windows name keyframes that do not exist
+  int64_t fails_at = -1;                ///< frame at which observe() fails
+  double window_bend = 0.0;             ///< path of a window over that of its square: drift
+  double window_noise = 0.0;            ///< added to positions until the revision takes it away
+  double metres = 0.0;                  ///< of a true length, said with each window; 0: not said
+  bool revises = false;                 ///< every window is revised once, at finish()
+  int32_t wide_every = 0;      ///< keyframes from one exact wide window to the next; 0: none
+  int32_t wide_given = 0;      ///< of them, the newest that was given
+  bool revises_early = false;  ///< not at finish(), but as soon as it is asked
   /// Called before a window is answered, with its first keyframe, on whatever thread asks.
   std::function<void(int32_t)> before_window;
   std::string no_start;                ///< what info() says of a run without a start

@@ -227,6 +227,7 @@ void Mapper::adjust_whole(int32_t id) {
   if (state_.posed < adjusted_posed_ + (loop ? kLoopGap : gap)) return;
   adjusted_posed_ = state_.posed;
   places_.loops().take(state_, &loops_);
+  joining_ = false;
   background_.start(state_, id, loop ? kLoopIterations : kWholeIterations, &loops_, joined_ids_);
 }
 
@@ -249,6 +250,7 @@ bool Mapper::join(int32_t id) {
   join_segments(&state_, from, older ? found.segment : present,
                 older ? found.move.inverse() : found.move);
   adjusted_posed_ = state_.posed;
+  joining_ = true;
   background_.start(state_, id, kFinalIterations, &loops_, joined_ids_);
   return true;
 }

@@ -43,6 +43,9 @@ class Mapper {
   bool finish();
   /// Something worth telling since the last call, empty: nothing.
   std::string take_remark() { return std::exchange(remark_, std::string()); }
+  /// Two segments have been put together, and the adjustment that makes them one map is not merged
+  /// yet: what lies between does not fit.
+  bool joining() const { return joining_ && background_.running(); }
   /// Precision of a window cut from the present state; 0 when not known.
   double window_sigma(const int32_t* ids, size_t count);
 
@@ -121,6 +124,7 @@ class Mapper {
   int64_t time_ns_ = 0;  // its time
   int64_t lost_since_ns_ = 0;
   Intrinsics lost_intrinsics_;  // of the map when the track was lost
+  bool joining_ = false;        // the adjustment started last is that of a join
   bool zoom_told_ = false;
   int lost_in_row_ = 0;
   int32_t unkept_ = -1;         // keyframe whose place has not been kept yet

@@ -118,6 +118,10 @@ void Predictions::choose_views(const State& state, const int32_t* ids, int32_t c
 int Predictions::window(Mapper* mapper, const int32_t* ids, int32_t count,
                         unisim_window_prediction* out, const char** why) {
   const State& state = mapper->state();
+  if (mapper->joining()) {
+    *why = "geometric: two segments are being joined";
+    return UNISIM_PREDICTION_PENDING;
+  }
   choose_views(state, ids, count);
   if (ids_.size() < 2) {
     *why = "geometric: fewer than two of the window's keyframes have a pose";
