@@ -18,6 +18,7 @@ constexpr double kPoseGates[kFitRounds + 1] = {kPoseGate, kPoseGate, kPoseGate, 
 // Of a frame that is looked for by itself: see find_quickly().
 constexpr int32_t kQuickFeatures = 300;
 constexpr size_t kVerified = 3;
+constexpr size_t kLikely = 12;   // quick matches with which a place is verified at once
 constexpr double kLinked = 0.5;  // share of a place's landmarks the keyframe sees anyway
 
 int32_t asked_of(PlaceFinder::Scope scope) {
@@ -89,6 +90,7 @@ bool PlaceFinder::find_quickly(const State& state, const DescriptorStore& store,
   if (!describable_) return false;
   list_.keep(state.map.ids());
   candidates_.clear();
+  size_t likely_tried = 0;
   for (const unisim_places_match& match :
        list_.query(seen_, descriptor_.data(), question.gap, kSpread, config_.max_keyframes)) {
     if (!state.map.keyframe(match.id).posed || skip-- > 0) continue;
@@ -96,11 +98,15 @@ bool PlaceFinder::find_quickly(const State& state, const DescriptorStore& store,
     if (!*end) break;
     viewer_.collect(state, store, match.id, &view_);
     match_features(features_, view_, kQuickFeatures, &pairs_);
-    candidates_.push_back({match.id, pairs_.size()});
+    unisim_place_report report{};
+    const bool likely = pairs_.size() >= kLikely && likely_tried < kVerified;
+    if (likely && verify(state, patches, current, out, &report)) return true;
+    likely_tried += likely ? 1 : 0;
+    candidates_.push_back({match.id, likely ? 0 : pairs_.size()});
   }
   std::stable_sort(candidates_.begin(), candidates_.end(),
                    [](const Candidate& a, const Candidate& b) { return a.matches > b.matches; });
-  for (size_t k = 0; k < std::min(kVerified, candidates_.size()); ++k) {
+  for (size_t k = 0; k + likely_tried < std::min(kVerified, candidates_.size()); ++k) {
     viewer_.collect(state, store, candidates_[k].keyframe, &view_);
     unisim_place_report report{};
     if (verify(state, patches, current, out, &report)) return true;
