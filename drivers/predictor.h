@@ -203,6 +203,8 @@ typedef struct unisim_predictor_info {
   int32_t loops_undone; /**< of those accepted: hold the map no longer, since they do not agree with
                            it. Filled by the pipeline for the loops it closes itself */
   int32_t reserved;     /**< 0 */
+  double readout_ms;    /**< of a rolling shutter, from the first row to the last, last estimate; 0:
+                             all rows at once, or not known */
 } unisim_predictor_info;
 
 /** A predictor. Free with destroy(predictor). Functions marked optional may be NULL. */

@@ -195,6 +195,7 @@ CONDITIONS = {
     "crop": Condition("cut to 16:9", crop),
     "occluder": Condition("a person walks through", occluder),
     "rolling": Condition("rolling shutter", rolling),
+    "rolling-told": Condition("the same, and the program is told", rolling, given=lambda _: ["--rolling-shutter"]),
     "rotation": Condition("turns 30 degrees on the spot and back", rotation),
     "black": Condition("60 black frames", black),
     "jump": Condition("elsewhere for 60 frames and back", jump),

@@ -34,6 +34,8 @@ namespace unisim::geometric {
 
 namespace {
 
+constexpr double kMostReadoutMs = 200;
+
 struct Range {
   const char* name;
   int32_t value;
@@ -70,6 +72,13 @@ std::string camera_problem(const unisim_geometric_config& c) {
   }
   if (c.focal_px == 0 && (c.focal_y_px > 0 || c.distortion_model != UNISIM_DISTORTION_UNKNOWN)) {
     return "focal_y_px and distortion need focal_px: distortion is told in focal lengths";
+  }
+  if (c.shutter != UNISIM_SHUTTER_GLOBAL && c.shutter != UNISIM_SHUTTER_ROLLING) {
+    return "shutter is " + std::to_string(c.shutter) + ", must be 0 or 1";
+  }
+  if (!(std::abs(c.readout_ms) <= kMostReadoutMs)) return "readout_ms must be -200 to 200";
+  if (c.readout_ms != 0 && c.shutter != UNISIM_SHUTTER_ROLLING) {
+    return "readout_ms is that of a rolling shutter: shutter must be 1";
   }
   for (int i = 0; i < UNISIM_DISTORTION_TERMS; ++i) {
     if (!std::isfinite(c.distortion[i])) return "a distortion term is not a number";

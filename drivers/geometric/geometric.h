@@ -23,6 +23,10 @@ extern "C" {
 #define UNISIM_DISTORTION_FISHEYE 2
 #define UNISIM_DISTORTION_TERMS 8
 
+/* How an image is read. */
+#define UNISIM_SHUTTER_GLOBAL 0  /**< all rows at once */
+#define UNISIM_SHUTTER_ROLLING 1 /**< one row after the other */
+
 /** Everything a geometric predictor is made with. Its memory follows from these numbers and the
  *  size of the first image. */
 typedef struct unisim_geometric_config {
@@ -66,6 +70,10 @@ typedef struct unisim_geometric_config {
   int32_t calibrated_height; /**< have another: it is scaled. 0, 0: the frames' (0) */
   int32_t reserved3;         /**< 0 */
   double distortion[UNISIM_DISTORTION_TERMS]; /**< in the order of the model, the rest 0 (0) */
+  int32_t shutter;   /**< UNISIM_SHUTTER_*; frames need their times (UNISIM_SHUTTER_GLOBAL) */
+  int32_t reserved4; /**< 0 */
+  double readout_ms; /**< of a rolling shutter: from the first row to the last, -200..200,
+                        negative where the last row is read first; 0: estimate it (0) */
 } unisim_geometric_config;
 
 /** Defaults for every field.

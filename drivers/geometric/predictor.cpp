@@ -236,6 +236,7 @@ void info(unisim_predictor* predictor, unisim_predictor_info* out) {
   out->radial_k1 = intrinsics.camera.k1;
   out->center_x_px = intrinsics.camera.cx - intrinsics.middle.x;
   out->center_y_px = intrinsics.camera.cy - intrinsics.middle.y;
+  out->readout_ms = 1e3 * intrinsics.readout_s;
 }
 
 /// Copies the mask's pixels.

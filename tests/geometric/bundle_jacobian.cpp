@@ -10,13 +10,14 @@ using namespace unisim::geometric;
 namespace {
 
 constexpr double kStep = 1e-6;
+constexpr double kWeight = 0.7;
+constexpr double kScale = 1.3;
 
 struct State {
   CameraPose pose;
   Eigen::Vector3d point;
   BundleIntrinsics intrinsics;
-  double u = 0.0;
-  double v = 0.0;
+  BundleObservation seen;
 };
 
 State random_state(std::mt19937* random) {
@@ -31,12 +32,15 @@ State random_state(std::mt19937* random) {
   state.intrinsics.k1 = -0.05;
   state.intrinsics.cx = 319.5;
   state.intrinsics.cy = 239.5;
-  state.u = 320.0 + 300.0 * bundle_scene::uniform(random);
-  state.v = 240.0 + 200.0 * bundle_scene::uniform(random);
+  state.intrinsics.readout_s = 0.02;
+  state.seen.u = 320.0 + 300.0 * bundle_scene::uniform(random);
+  state.seen.v = 240.0 + 200.0 * bundle_scene::uniform(random);
+  state.seen.weight = kWeight;
+  state.seen.sway = {400.0 * bundle_scene::uniform(random), 300.0 * bundle_scene::uniform(random)};
   return state;
 }
 
-// Unknown 0-5 camera, 6-8 point, 9 log f, 10 k1, 11 cx, 12 cy.
+// Unknown 0-5 camera, 6-8 point, 9 log f, 10 k1, 11 cx, 12 cy, 13 readout.
 State moved(const State& from, int unknown, double h) {
   State to = from;
   if (unknown < 6) {
@@ -47,18 +51,17 @@ State moved(const State& from, int unknown, double h) {
     to.intrinsics.log_focal += h;
   } else if (unknown == 10) {
     to.intrinsics.k1 += h;
+  } else if (unknown == 13) {
+    to.intrinsics.readout_s += h;
   } else {
     (unknown == 11 ? to.intrinsics.cx : to.intrinsics.cy) += h;
   }
   return to;
 }
 
-constexpr double kWeight = 0.7;
-constexpr double kScale = 1.3;
-
 Eigen::Vector2d reprojection(const State& s) {
-  return reprojection_value(residual_intrinsics(s.intrinsics, kScale), s.pose.apply(s.point), s.u,
-                            s.v, kWeight);
+  return reprojection_value(residual_intrinsics(s.intrinsics, kScale), s.pose.apply(s.point),
+                            s.seen);
 }
 
 }  // namespace
@@ -69,11 +72,11 @@ TEST_CASE("reprojection Jacobians agree with central differences") {
     const State s = random_state(&random);
     ReprojectionResidual J;
     reprojection_jacobian(residual_intrinsics(s.intrinsics, kScale), s.pose.R,
-                          s.pose.apply(s.point), s.u, s.v, kWeight, &J);
-    Eigen::Matrix<double, 2, 13> analytic;
+                          s.pose.apply(s.point), s.seen, kWeight, &J);
+    Eigen::Matrix<double, 2, 14> analytic;
     analytic.row(0) << J.camera0.transpose(), J.point0.transpose(), J.intrinsics0.transpose();
     analytic.row(1) << J.camera1.transpose(), J.point1.transpose(), J.intrinsics1.transpose();
-    for (int k = 0; k < 13; ++k) {
+    for (int k = 0; k < 14; ++k) {
       const Eigen::Vector2d numeric =
           (reprojection(moved(s, k, kStep)) - reprojection(moved(s, k, -kStep))) / (2.0 * kStep);
       INFO("unknown " << k);

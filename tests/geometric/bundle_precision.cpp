@@ -44,9 +44,8 @@ struct Dense {
     for (int p = 0; p < at.point_count(); ++p) {
       for (int o = at.point(p).first; o < at.point(p).first + at.point(p).count; ++o) {
         const BundleObservation& seen = at.observation(o);
-        r.segment<2>(2 * o) =
-            reprojection_value(constants, at.camera(seen.camera).pose.apply(at.point(p).position),
-                               seen.u, seen.v, 1.0);
+        r.segment<2>(2 * o) = reprojection_value(
+            constants, at.camera(seen.camera).pose.apply(at.point(p).position), seen);
       }
     }
     return r;

@@ -83,6 +83,38 @@ TEST_CASE("bundle adjustment recovers an exact scene") {
   }
 }
 
+TEST_CASE("bundle adjustment finds how long the rows of an image take") {
+  constexpr double kReadout = 0.025;
+  const bundle_scene::Scene scene = bundle_scene::make({});
+  BundleProblem problem(bundle_scene::capacity(scene));
+  bundle_scene::fill(scene, 1, &problem);
+  // Each camera sees its points in motion of its own; rows late by their share are off by it.
+  std::mt19937 random(3);
+  std::vector<Eigen::Vector2d> motion(scene.poses.size());
+  for (Eigen::Vector2d& of_camera : motion) {
+    of_camera = 400.0 * bundle_scene::uniform3(&random).head<2>();
+  }
+  for (int i = 0; i < problem.observation_count(); ++i) {
+    BundleObservation& seen = problem.observation(i);
+    seen.sway = (seen.v / 480.0 - 0.5) * motion[static_cast<std::size_t>(seen.camera)];
+    seen.u += kReadout * seen.sway.x();
+    seen.v += kReadout * seen.sway.y();
+  }
+  bundle_scene::perturb(0.02, 0.05, 0.1, 7, &problem);
+  BundleAdjuster adjuster(problem.capacity());
+  BundleProblem held = problem;
+  adjuster.solve(&held, thorough());
+  CHECK(center_error(scene, held) > 1e-3);
+  problem.intrinsics.free_readout = true;
+  const BundleResult result = adjuster.solve(&problem, thorough());
+  CHECK(result.final_cost < 1e-12);
+  CHECK(problem.intrinsics.readout_s == Approx(kReadout).epsilon(1e-7));
+  CHECK(center_error(scene, problem) < 1e-8);
+  const BundlePrecision precision = adjuster.precision(problem, thorough(), nullptr, 0);
+  CHECK(precision.readout_sigma_s > 0.0);
+  CHECK(precision.readout_sigma_s < 0.001);
+}
+
 TEST_CASE("with no camera fixed the first is held and the unit of the start survives") {
   const bundle_scene::Scene scene = bundle_scene::make({});
   BundleProblem problem(bundle_scene::capacity(scene));

@@ -85,6 +85,37 @@ TEST_CASE("a principal point that was given is held") {
   CHECK_FALSE(problem.free_center);
 }
 
+TEST_CASE("the readout of a rolling shutter is estimated where it was asked for and shows") {
+  const cv::Size size(640, 480);
+  Intrinsics global = Intrinsics::start(size, 0);
+  BundleIntrinsics problem;
+  global.note_rotation(1.0);
+  global.give(false, &problem);
+  CHECK_FALSE(problem.free_readout);
+
+  Intrinsics rolling = Intrinsics::start(size, 0);
+  rolling.roll(0);
+  rolling.note_rotation(0.03);
+  rolling.give(false, &problem);
+  CHECK_FALSE(problem.free_readout);  // not turned
+  rolling.note_rotation(0.1);
+  rolling.give(true, &problem);
+  CHECK_FALSE(problem.free_readout);  // while the state is young
+  rolling.give(false, &problem);
+  CHECK(problem.free_readout);
+  CHECK(problem.readout_sigma_s > 0);
+  problem.readout_s = 0.018;
+  rolling.take(problem, size);
+  CHECK(rolling.readout_s == 0.018);
+
+  Intrinsics given = Intrinsics::start(size, 0);
+  given.roll(0.025);
+  given.note_rotation(1.0);
+  given.give(false, &problem);
+  CHECK_FALSE(problem.free_readout);
+  CHECK(problem.readout_s == 0.025);
+}
+
 TEST_CASE("a long focal length that was given is loaded again") {
   using unisim::drivers::Archive;
   const cv::Size size(640, 480);

@@ -102,6 +102,8 @@ ProgramResult run_replay(const std::vector<std::string>& arguments,
 
 std::string rendered_sequence() { return UNISIM_RENDERED "/320x240"; }
 
+std::string rolling_sequence() { return UNISIM_RENDERED "/rolling"; }
+
 std::string small_sequence() { return UNISIM_RENDERED "/160x120"; }
 
 std::string still_sequence() { return UNISIM_RENDERED "/still"; }

@@ -42,6 +42,8 @@ ProgramResult run_replay(const std::vector<std::string>& arguments,
 
 /// A rendered sequence of 80 frames, 320x240, with ground truth; made by the build, read only.
 std::string rendered_sequence();
+/// Rows read one after the other, 25 ms from the first to the last.
+std::string rolling_sequence();
 
 /// The same in 160x120.
 std::string small_sequence();

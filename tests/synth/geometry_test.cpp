@@ -19,7 +19,7 @@ struct View {
 View view_at(const Renderer& renderer, const Camera& camera, const Eigen::Isometry3d& pose) {
   const auto pixels = static_cast<size_t>(camera.width) * static_cast<size_t>(camera.height);
   View view{pose, ColorImage(pixels, Color::Zero()), DepthImage(pixels, 0)};
-  renderer.render(pose, &view.colors, &view.depth);
+  renderer.render([&](int) { return pose; }, &view.colors, &view.depth);
   return view;
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("depth and pose carry the pixels of one view to the same colours in an
   const auto kind = GENERATE(SceneKind::kRoom, SceneKind::kCorridor, SceneKind::kDesk);
   const Camera camera{320, 240, 262, 0};
   const Scene scene = make_scene(kind, 3);
-  const Renderer renderer(scene, camera);
+  const Renderer renderer(scene, camera, false);
   const CameraPath path({kind, 10, 1, 3});
   const View first = view_at(renderer, camera, path.T_world_cam(4.0));
   const View second = view_at(renderer, camera, path.T_world_cam(4.2));
@@ -90,7 +90,7 @@ TEST_CASE("depth and pose carry the pixels of one view to the same colours in an
 TEST_CASE("a wrong pose does not") {
   const Camera camera{320, 240, 262, 0};
   const Scene scene = make_room(3);
-  const Renderer renderer(scene, camera);
+  const Renderer renderer(scene, camera, false);
   const CameraPath path({SceneKind::kRoom, 10, 1, 3});
   const View first = view_at(renderer, camera, path.T_world_cam(4.0));
   View second = view_at(renderer, camera, path.T_world_cam(4.2));
@@ -104,7 +104,7 @@ TEST_CASE("depth is the distance along the optical axis") {
   scene.add_face({-5, 2, 5}, Eigen::Vector3d::UnitX(), -Eigen::Vector3d::UnitZ(), 10, 10,
                  [](Canvas* canvas) { canvas->paint_rect(canvas->area(), Color(100, 100, 100)); });
   const Camera camera{64, 48, 50, 0};
-  const Renderer renderer(scene, camera);
+  const Renderer renderer(scene, camera, false);
   Eigen::Isometry3d T_world_cam = Eigen::Isometry3d::Identity();
   T_world_cam.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;  // looks along +y, z is up
   const View view = view_at(renderer, camera, T_world_cam);
@@ -120,4 +120,22 @@ TEST_CASE("a distorted pixel looks where the pinhole's pixel at the undistorted 
   const double undistorted = 200 * (1 - 0.1 * 0.4 * 0.4);
   CHECK(ray.x() == Approx(pinhole.ray(319.5 - undistorted, 239.5).x()));
   CHECK(ray.y() == Approx(0).margin(1e-7));
+}
+
+TEST_CASE("under a rolling shutter each row is that of the view from its own pose") {
+  const Camera camera{96, 64, 80, 0};
+  const Scene scene = make_room(3);
+  const CameraPath path({SceneKind::kRoom, 10, 1, 3});
+  const auto pose_of_row = [&](int row) { return path.T_world_cam(4.0 + 0.001 * row); };
+  const auto pixels = static_cast<size_t>(camera.width * camera.height);
+  ColorImage rolled(pixels, Color::Zero());
+  Renderer(scene, camera, true).render(pose_of_row, &rolled, nullptr);
+  const Renderer global(scene, camera, false);
+  for (const int row : {0, 20, 63}) {
+    const View whole = view_at(global, camera, pose_of_row(row));
+    for (int column = 0; column < camera.width; ++column) {
+      const auto at = static_cast<size_t>(row * camera.width + column);
+      CHECK((rolled[at] - whole.colors[at]).norm() == Approx(0).margin(1e-3));
+    }
+  }
 }

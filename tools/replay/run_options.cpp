@@ -67,6 +67,11 @@ void RunOptions::add_camera_options(CLI::App* app) {
       ->transform(in_range(Range::number(-kMostDistortion, kMostDistortion)));
   app->add_option("--calibration", calibration_,
                   "the three from a YAML file as OpenCV, ROS or EuRoC write it");
+  app->add_flag("--rolling-shutter", rolling_,
+                "rows are read one after the other; how fast is estimated");
+  app->add_option("--readout-ms", readout_ms_,
+                  "known time from the first row of an image to the last, negative from below")
+      ->transform(in_range(Range::number(-kMostReadoutMs, kMostReadoutMs)));
 }
 
 void RunOptions::add_scale_options(CLI::App* app) {
@@ -214,10 +219,16 @@ void RunOptions::take_camera() {
     if (!good) throw tools::Failure(tools::kExitUsage, line);
   };
   const bool apart = !principal_.empty() || !distortion_.empty();
+  const bool rolling = rolling_ || readout_ms_;
   require(calibration_.empty() || (!focal_ && !apart),
           "--calibration says it all; leave out --focal, --principal and --distortion");
   require(options_->predictor == "geometric" || (calibration_.empty() && !apart),
           "--principal, --distortion and --calibration go with --predictor geometric");
+  require(options_->predictor == "geometric" || !rolling,
+          "--rolling-shutter and --readout-ms go with --predictor geometric");
+  require(!readout_ms_ || *readout_ms_ != 0, "--readout-ms 0 is no rolling shutter: leave it out");
+  if (rolling) camera->shutter = UNISIM_SHUTTER_ROLLING;
+  if (readout_ms_) camera->readout_ms = *readout_ms_;
   require(distortion_.size() != 3, "--distortion takes k1,k2 or k1,k2,p1,p2 or k1,k2,p1,p2,k3");
   if (focal_) {
     camera->focal_px = *focal_;

@@ -47,6 +47,8 @@ class RunOptions {
   std::vector<double> principal_;
   std::vector<double> distortion_;
   std::string calibration_;
+  bool rolling_ = false;
+  std::optional<double> readout_ms_;
   std::vector<std::string> disabled_;
   bool every_frame_ = false;
   bool no_loop_ = false;

@@ -88,6 +88,8 @@ void add_geometric_fields(unisim_geometric_config* c, std::vector<Field>* fields
         Range::whole(UNISIM_DISTORTION_UNKNOWN, UNISIM_DISTORTION_FISHEYE)},
        {s, "calibrated_width", &c->calibrated_width, Range::whole(0, 100000)},
        {s, "calibrated_height", &c->calibrated_height, Range::whole(0, 100000)},
+       {s, "shutter", &c->shutter, Range::whole(UNISIM_SHUTTER_GLOBAL, UNISIM_SHUTTER_ROLLING)},
+       {s, "readout_ms", &c->readout_ms, Range::number(-kMostReadoutMs, kMostReadoutMs)},
        {s, "places", &c->places, Range::whole(0, 1)},
        {s, "loop_gap", &c->loop_gap, Range::whole(6, 100000)},
        {s, "loop_tries", &c->loop_tries, Range::whole(0, 50)},

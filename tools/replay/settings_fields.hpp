@@ -28,6 +28,7 @@ constexpr int64_t kMostStride = 1000000;
 constexpr double kMostFocalPx = 1e6;
 // Fisheye polynomials of high order run to hundreds.
 constexpr double kMostDistortion = 1e6;
+constexpr double kMostReadoutMs = 200.0;
 constexpr int64_t kMostThreads = 256;
 constexpr int64_t kMostMemoryMb = 100000000;
 

@@ -236,6 +236,7 @@ Json summary_json(const Run& run) {
           {"submaps_refused", info.submaps_refused},
           {"focal_px", focal > 0.0 ? Json(focal) : Json(nullptr)},
           {"principal_offset_px", principal_json(run.result.predictor)},
+          {"readout_ms", run.result.predictor.readout_ms},
           {"lanes", lanes_json(run.result.lanes)},
           {"memory", memory_json(run)},
           {"timing_ms", timing_json(run.result.times)},
@@ -266,6 +267,11 @@ std::string summary_text(const Run& run, const std::vector<std::string>& files) 
   const char* how = run.options.settings.geometric.focal_px > 0.0 ? "given" : "estimated";
   if (result.predictor.focal_px > 0.0) {
     out += text("focal length %.1f px (%s), ", result.predictor.focal_px, how);
+  }
+  if (result.predictor.readout_ms != 0) {
+    const bool told = run.options.settings.geometric.readout_ms != 0;
+    out +=
+        text("readout %.1f ms (%s), ", result.predictor.readout_ms, told ? "given" : "estimated");
   }
   const pipeline::LatencyHistogram& live = result.times.track_total;
   out += text("%.1f s, %.0f frames/s, live pose of a keyframe %.1f ms (p95 %.1f)\n", result.wall_s,

@@ -68,6 +68,10 @@ int synth(int argc, const char* const* argv) {
       ->transform(in_range(Range::above(0.0, 1000.0)))
       ->capture_default_str();
   app.add_flag("--blur", options.blur, "motion blur of half the frame time");
+  app.add_option("--readout-ms", options.readout_ms,
+                 "rolling shutter: from the first row to the last; negative: from below")
+      ->transform(in_range(Range::number(-1000.0, 1000.0)))
+      ->capture_default_str();
   app.add_flag("--noise", options.noise, "sensor noise");
   app.add_flag("--exposure", options.exposure_jumps, "jumps of exposure");
   app.add_flag("--jpg", options.jpeg, "color images as JPEG, quality 95, in place of PNG");

@@ -18,7 +18,8 @@ constexpr int kEdgeRays = 4;
 
 }  // namespace
 
-Renderer::Renderer(const Scene& scene, const Camera& camera) : scene_(scene), camera_(camera) {
+Renderer::Renderer(const Scene& scene, const Camera& camera, bool rolling)
+    : scene_(scene), camera_(camera), rolling_(rolling) {
   for (int row = 0; row < camera.height; ++row) {
     for (int column = 0; column < camera.width; ++column) {
       center_rays_.push_back(camera.ray(column, row));
@@ -29,9 +30,10 @@ Renderer::Renderer(const Scene& scene, const Camera& camera) : scene_(scene), ca
       corner_rays_.push_back(camera.ray(column - 0.5, row - 0.5));
     }
   }
-  for (int top = 0; top < camera.height; top += kTileSize) {
+  const int rows = rolling ? 1 : kTileSize;
+  for (int top = 0; top < camera.height; top += rows) {
     for (int left = 0; left < camera.width; left += kTileSize) {
-      tiles_.push_back(make_tile(left, top));
+      tiles_.push_back(make_tile(left, top, rows));
     }
   }
 }
@@ -65,12 +67,12 @@ Renderer::Planes Renderer::place(const Eigen::Isometry3d& T_world_cam) const {
   return planes;
 }
 
-Renderer::Tile Renderer::make_tile(int left, int top) const {
+Renderer::Tile Renderer::make_tile(int left, int top, int rows) const {
   Tile tile;
   tile.left = left;
   tile.top = top;
   tile.right = std::min(left + kTileSize, camera_.width);
-  tile.bottom = std::min(top + kTileSize, camera_.height);
+  tile.bottom = std::min(top + rows, camera_.height);
   Vector2f low = corner_ray(left, top);
   Vector2f high = low;
   for (int row = top; row <= tile.bottom; ++row) {
@@ -178,11 +180,13 @@ void Renderer::render_tile(const Tile& tile, const Candidates& candidates, Color
   }
 }
 
-void Renderer::render(const Eigen::Isometry3d& T_world_cam, ColorImage* colors,
+void Renderer::render(const std::function<Eigen::Isometry3d(int)>& T_world_cam, ColorImage* colors,
                       DepthImage* depth) const {
-  const Planes planes = place(T_world_cam);
+  Planes planes;
   Candidates candidates;
   for (const Tile& tile : tiles_) {
+    const bool first = tile.top == 0 && tile.left == 0;
+    if (first || (rolling_ && tile.left == 0)) planes = place(T_world_cam(tile.top));
     find_candidates(planes, tile, &candidates);
     render_tile(tile, candidates, colors, depth);
   }

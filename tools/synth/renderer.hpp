@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <vector>
 
 #include "tools/synth/camera.hpp"
@@ -20,11 +21,14 @@ using DepthImage = std::vector<float>;
 
 class Renderer {
  public:
-  /// @param scene  must outlive the renderer
-  Renderer(const Scene& scene, const Camera& camera);
+  /// @param scene    must outlive the renderer
+  /// @param rolling  rows have poses of their own
+  Renderer(const Scene& scene, const Camera& camera, bool rolling);
 
   /// Add the view from T_world_cam to `colors`. @param depth  NULL when not wanted
-  void render(const Eigen::Isometry3d& T_world_cam, ColorImage* colors, DepthImage* depth) const;
+  /// @param T_world_cam  of a row; asked once, for the first, where the shutter does not roll
+  void render(const std::function<Eigen::Isometry3d(int)>& T_world_cam, ColorImage* colors,
+              DepthImage* depth) const;
 
  private:
   /// A face as seen from one pose; see the file's head.
@@ -57,7 +61,7 @@ class Renderer {
   using Candidates = std::vector<const Plane*>;
 
   Planes place(const Eigen::Isometry3d& T_world_cam) const;
-  Tile make_tile(int left, int top) const;
+  Tile make_tile(int left, int top, int rows) const;
   static void find_candidates(const Planes& planes, const Tile& tile, Candidates* candidates);
   void render_tile(const Tile& tile, const Candidates& candidates, ColorImage* colors,
                    DepthImage* depth) const;
@@ -71,6 +75,7 @@ class Renderer {
 
   const Scene& scene_;
   Camera camera_;
+  bool rolling_;
   std::vector<Eigen::Vector2f> center_rays_;
   std::vector<Eigen::Vector2f> corner_rays_;
   std::vector<Tile> tiles_;

@@ -50,6 +50,7 @@ std::string describe(const SequenceOptions& options, const Camera& camera) {
        << "frames = " << options.frames << "\nfps = " << options.fps
        << "\nloops = " << options.loops << "\nseed = " << options.seed
        << "\nblur = " << boolean(options.blur) << "\nnoise = " << boolean(options.noise)
+       << "\nreadout_ms = " << options.readout_ms
        << "\nexposure = " << boolean(options.exposure_jumps) << "\njpeg = " << boolean(options.jpeg)
        << "\nencode = " << boolean(options.encode) << "\nunit_spread = " << options.unit_spread
        << "\ndepth_factor = " << kDepthFactor << "\n\n[camera]  # pixel centres at whole numbers; "
@@ -67,7 +68,7 @@ class FrameMaker {
       : options_(options),
         camera_(make_camera(options)),
         path_(make_path(options)),
-        renderer_(scene, camera_),
+        renderer_(scene, camera_, options.readout_ms != 0),
         writer_(writer),
         sensor_{options.noise, options.exposure_jumps, options.fps, options.seed} {}
 
@@ -80,8 +81,12 @@ class FrameMaker {
     for (int view = 0; view < views; ++view) {
       const double share = (view + 0.5) / views - 0.5;
       const bool middle = view == views / 2;
-      renderer_.render(path_.T_world_cam(time_s + share * kShutterShare / options_.fps), &colors,
-                       middle ? &depth : nullptr);
+      const double open_s = time_s + share * kShutterShare / options_.fps;
+      const auto pose_of_row = [&](int row) {
+        const double late = (row + 0.5) / camera_.height - 0.5;
+        return path_.T_world_cam(open_s + 1e-3 * options_.readout_ms * late);
+      };
+      renderer_.render(pose_of_row, &colors, middle ? &depth : nullptr);
     }
     const double stamp = frame_time_s(options_, frame);
     const cv::Mat image =
@@ -161,9 +166,9 @@ void check_options(const SequenceOptions& options) {
               (options.focal_px >= 0.2 * options.width && options.focal_px <= 10.0 * options.width),
           "--focal must be 0.2 to 10 times the width, in pixels");
   require(!options.encode || !(options.blur || options.noise || options.exposure_jumps ||
-                               options.jpeg || options.radial_k1 != 0),
+                               options.jpeg || options.radial_k1 != 0 || options.readout_ms != 0),
           "--encode writes numbers, not light: it goes with none of --blur --noise --exposure "
-          "--jpg --radial");
+          "--jpg --radial --readout-ms");
   require(options.encode || options.unit_spread == 0, "--unit-spread goes with --encode");
 }
 

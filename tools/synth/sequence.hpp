@@ -27,6 +27,7 @@ struct SequenceOptions {
   bool noise = false;
   bool exposure_jumps = false;
   bool jpeg = false;
+  double readout_ms = 0;   ///< of a rolling shutter, first row to last; 0: all rows at once
   bool encode = false;     ///< depth and pose in the pixels; see encoding.hpp
   double unit_spread = 0;  ///< of encoded frames: 0 <= spread < 1
   bool force = false;
@@ -41,7 +42,7 @@ void check_options(const SequenceOptions& options);
 Camera make_camera(const SequenceOptions& options);
 CameraPath make_path(const SequenceOptions& options);
 
-/// Time of a frame as it stands in the files; blurred frames are in the middle of their exposure.
+/// Time of a frame as it stands in the files: the middle of its exposure and of its readout.
 double frame_time_s(const SequenceOptions& options, int frame);
 
 /// Check, render and write. The bytes do not depend on the number of threads.

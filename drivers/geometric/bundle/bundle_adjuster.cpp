@@ -27,7 +27,8 @@ bool finite(const BundleIntrinsics& in) {
          std::isfinite(in.cy) && std::isfinite(in.log_focal_mean) &&
          std::isfinite(in.log_focal_sigma) && std::isfinite(in.k1_mean) &&
          std::isfinite(in.k1_sigma) && std::isfinite(in.cx_mean) && std::isfinite(in.cy_mean) &&
-         std::isfinite(in.center_sigma_px);
+         std::isfinite(in.center_sigma_px) && std::isfinite(in.readout_s) &&
+         std::isfinite(in.readout_mean_s) && std::isfinite(in.readout_sigma_s);
 }
 
 bool valid(const BundleProblem& problem, const BundleOptions& options) {
@@ -44,7 +45,8 @@ bool valid(const BundleProblem& problem, const BundleOptions& options) {
   }
   for (int i = 0; i < problem.observation_count(); ++i) {
     const BundleObservation& seen = problem.observation(i);
-    if (!std::isfinite(seen.u) || !std::isfinite(seen.v) || !std::isfinite(seen.weight)) {
+    if (!std::isfinite(seen.u) || !std::isfinite(seen.v) || !std::isfinite(seen.weight) ||
+        !seen.sway.allFinite()) {
       return false;
     }
   }

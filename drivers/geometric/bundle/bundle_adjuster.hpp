@@ -48,6 +48,7 @@ struct BundlePrecision {
   double center_sigma = 0.0;     ///< see BundleAdjuster::precision()
   double log_focal_sigma = 0.0;  ///< posterior standard deviation, prior included; 0 when held
   double k1_sigma = 0.0;         ///< the same
+  double readout_sigma_s = 0.0;  ///< the same
   double residual_sigma =
       0.0;  ///< robust standard deviation of one residual component, scaled pixels
   double median_depth = 0.0;  ///< of the points in the chosen cameras

@@ -98,9 +98,10 @@ BundlePrecision BundleAdjuster::precision(const BundleProblem& problem,
     if (map.degenerate()) return out;
     out.center_sigma = std::sqrt(center_variance(map)) * out.residual_sigma / out.median_depth;
   }
-  const Eigen::Matrix4d covariance = system_->intrinsics_covariance();
+  const IntrinsicsMatrix covariance = system_->intrinsics_covariance();
   out.log_focal_sigma = std::sqrt(covariance(0, 0)) * out.residual_sigma;
   out.k1_sigma = std::sqrt(covariance(1, 1)) * out.residual_sigma;
+  out.readout_sigma_s = std::sqrt(covariance(4, 4)) * out.residual_sigma;
   out.valid = std::isfinite(out.center_sigma) && std::isfinite(out.log_focal_sigma) &&
               std::isfinite(out.k1_sigma);
   return out;
@@ -138,7 +139,7 @@ void BundleAdjuster::measure_residuals(const BundleProblem& problem, const Bundl
       const BundleObservation& seen = problem.observation(o);
       const Eigen::Vector3d y = problem.camera(seen.camera).pose.apply(point.position);
       if (!(seen.weight > 0.0) || !(y.z() > kMinDepth)) continue;
-      norms.push_back(reprojection_value(constants, y, seen.u, seen.v, seen.weight).norm());
+      norms.push_back(reprojection_value(constants, y, seen).norm());
       if (count == 0 || std::find(cameras, cameras + count, seen.camera) != cameras + count) {
         depths.push_back(y.z());
       }

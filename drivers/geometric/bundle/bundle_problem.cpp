@@ -55,12 +55,13 @@ int BundleProblem::add_point(const Eigen::Vector3d& position_world) {
   return point_count() - 1;
 }
 
-bool BundleProblem::add_observation(int camera, double u, double v, double weight) {
+bool BundleProblem::add_observation(int camera, double u, double v, double weight,
+                                    const Eigen::Vector2d& sway) {
   if (points_.empty() || observation_count() >= capacity_.observations) return false;
   if (camera < 0 || camera >= camera_count()) return false;
   BundlePoint& point = points_.back();
   if (point.count > 0 && observations_.back().camera >= camera) return false;
-  observations_.push_back({camera, u, v, weight});
+  observations_.push_back({camera, u, v, weight, sway});
   ++point.count;
   return true;
 }
@@ -78,7 +79,9 @@ double BundleProblem::reprojection_error_px(const BundlePoint& point, int i) con
   if (!model.project_undistorted(camera(seen.camera).pose.apply(point.position), &projected)) {
     return std::numeric_limits<double>::infinity();
   }
-  return (projected - model.undistort(Eigen::Vector2d(seen.u, seen.v))).norm();
+  return (projected -
+          model.undistort(Eigen::Vector2d(seen.u, seen.v) - intrinsics.readout_s * seen.sway))
+      .norm();
 }
 
 }  // namespace unisim::geometric

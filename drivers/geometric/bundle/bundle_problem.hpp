@@ -39,6 +39,9 @@ struct BundleObservation {
   double v = 0.0;
   double weight =
       1.0;  ///< inverse standard deviation relative to the others (1: ordinary, 0: left out)
+  /// Pixels it moves for each second of readout; (u, v) - readout * sway is what the model
+  /// explains.
+  Eigen::Vector2d sway = Eigen::Vector2d::Zero();
 };
 
 /// Shared intrinsics with independent Gaussian priors; a sigma <= 0 means no prior.
@@ -57,6 +60,10 @@ struct BundleIntrinsics {
   double cx_mean = 0.0;
   double cy_mean = 0.0;
   double center_sigma_px = 0.0;  ///< of each of cx and cy
+  double readout_s = 0.0;        ///< from the first row of an image to the last
+  bool free_readout = false;
+  double readout_mean_s = 0.0;
+  double readout_sigma_s = 0.0;
 
   CameraModel model() const;                 ///< camera with these values
   void set_model(const CameraModel& model);  ///< takes focal, k1 and centre; flags and priors stay
@@ -81,7 +88,8 @@ class BundleProblem {
   /// order.
   /// @return false, nothing added: no point yet, unknown camera, order broken, `observations`
   /// reached
-  bool add_observation(int camera, double u, double v, double weight);
+  bool add_observation(int camera, double u, double v, double weight,
+                       const Eigen::Vector2d& sway = Eigen::Vector2d::Zero());
 
   /// Takes the newest point back with its observations (say, because too few were found).
   void drop_point();

@@ -41,6 +41,7 @@ bool ReducedSystem::layout(const BundleProblem& problem) {
   free_[0] = problem.intrinsics.free_focal;
   free_[1] = problem.intrinsics.free_k1;
   free_[2] = free_[3] = problem.intrinsics.free_center;
+  free_[4] = problem.intrinsics.free_readout;
   camera_slots_ = 0;
   int held = 0;
   for (int i = 0; i < problem.camera_count(); ++i) held += problem.camera(i).fixed ? 1 : 0;
@@ -117,12 +118,12 @@ int ReducedSystem::camera_coordinates(const BundleProblem& problem, const Bundle
 void ReducedSystem::add_observation(const BundleProblem& problem, const BundleOptions& options,
                                     int observation, const Eigen::Vector3d& y, PointSums* sums) {
   const BundleObservation& seen = problem.observation(observation);
-  const Eigen::Vector2d value = reprojection_value(constants_, y, seen.u, seen.v, seen.weight);
+  const Eigen::Vector2d value = reprojection_value(constants_, y, seen);
   const double root = std::sqrt(huber_weight(value.norm(), options.huber));
   const Eigen::Vector2d r = root * value;
   ReprojectionResidual J;
-  reprojection_jacobian(constants_, problem.camera(seen.camera).pose.R, y, seen.u, seen.v,
-                        root * seen.weight, &J);
+  reprojection_jacobian(constants_, problem.camera(seen.camera).pose.R, y, seen, root * seen.weight,
+                        &J);
   ++used_;
   sums->V.noalias() += J.point0 * J.point0.transpose() + J.point1 * J.point1.transpose();
   sums->b -= r.x() * J.point0 + r.y() * J.point1;
@@ -142,7 +143,7 @@ void ReducedSystem::add_observation(const BundleProblem& problem, const BundleOp
   if (has_intrinsics()) {
     F_.noalias() +=
         J.intrinsics0 * J.intrinsics0.transpose() + J.intrinsics1 * J.intrinsics1.transpose();
-    Eigen::Map<Eigen::Vector4d>(&gradient_[at(6 * camera_slots_)]) -=
+    Eigen::Map<IntrinsicsVector>(&gradient_[at(6 * camera_slots_)]) -=
         r.x() * J.intrinsics0 + r.y() * J.intrinsics1;
     sums->WF.noalias() +=
         J.intrinsics0 * J.point0.transpose() + J.intrinsics1 * J.point1.transpose();
@@ -223,12 +224,14 @@ void ReducedSystem::finish_assembly(const BundleProblem& problem, double lambda)
   }
   if (!has_intrinsics()) return;
   const BundleIntrinsics& in = problem.intrinsics;
-  Eigen::Map<Eigen::Vector4d> gradient(&gradient_[at(6 * camera_slots_)]);
-  const Eigen::Vector4d off(in.log_focal - in.log_focal_mean, in.k1 - in.k1_mean,
-                            in.cx - in.cx_mean, in.cy - in.cy_mean);
-  const Eigen::Vector4d information(
-      prior_information(in.log_focal_sigma), prior_information(in.k1_sigma),
-      prior_information(in.center_sigma_px), prior_information(in.center_sigma_px));
+  Eigen::Map<IntrinsicsVector> gradient(&gradient_[at(6 * camera_slots_)]);
+  IntrinsicsVector off;
+  off << in.log_focal - in.log_focal_mean, in.k1 - in.k1_mean, in.cx - in.cx_mean,
+      in.cy - in.cy_mean, in.readout_s - in.readout_mean_s;
+  IntrinsicsVector information;
+  information << prior_information(in.log_focal_sigma), prior_information(in.k1_sigma),
+      prior_information(in.center_sigma_px), prior_information(in.center_sigma_px),
+      prior_information(in.readout_sigma_s);
   gradient -= information.cwiseProduct(off);
   F_.diagonal() += information;
   TileCholesky::Block corner = matrix_.block(camera_slots_, camera_slots_);
@@ -295,16 +298,18 @@ bool ReducedSystem::step(BundleProblem* problem) {
   if (free_[1]) in.k1 += intrinsics[1];
   if (free_[2]) in.cx += intrinsics[2];
   if (free_[3]) in.cy += intrinsics[3];
+  if (free_[4]) in.readout_s += intrinsics[4];
   return true;
 }
 
-Eigen::Matrix4d ReducedSystem::intrinsics_covariance() const {
-  if (!has_intrinsics()) return Eigen::Matrix4d::Zero();
+IntrinsicsMatrix ReducedSystem::intrinsics_covariance() const {
+  if (!has_intrinsics()) return IntrinsicsMatrix::Zero();
   // The intrinsics come last, so their corner of L is the factor of their marginal information.
-  const Eigen::Matrix4d L = matrix_.diagonal_block(camera_slots_).topLeftCorner<4, 4>();
-  const Eigen::Matrix4d inverse =
-      L.triangularView<Eigen::Lower>().solve(Eigen::Matrix4d::Identity());
-  Eigen::Matrix4d covariance = inverse.transpose() * inverse;
+  const IntrinsicsMatrix L =
+      matrix_.diagonal_block(camera_slots_).topLeftCorner<kIntrinsics, kIntrinsics>();
+  const IntrinsicsMatrix inverse =
+      L.triangularView<Eigen::Lower>().solve(IntrinsicsMatrix::Identity());
+  IntrinsicsMatrix covariance = inverse.transpose() * inverse;
   for (int i = 0; i < kIntrinsics; ++i) {
     if (free_[i]) continue;
     covariance.row(i).setZero();

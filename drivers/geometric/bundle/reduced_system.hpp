@@ -15,10 +15,11 @@ namespace unisim::geometric {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using IntrinsicsMatrix = Eigen::Matrix<double, kIntrinsics, kIntrinsics>;
 
 /// Schur complement of the points of a BundleProblem. Unknowns stand in slots of 6: one per free
-/// camera in the order they were added, then one for the intrinsics (log f, k1, cx, cy, two idle
-/// rows).
+/// camera in the order they were added, then one for the intrinsics (log f, k1, cx, cy,
+/// readout, an idle row).
 /// The elimination order of the Cholesky factorisation is the slot order, so cameras should be
 /// added in time order.
 class ReducedSystem {
@@ -49,14 +50,12 @@ class ReducedSystem {
   /// Factor of the last factorize(); slots as above, intrinsics last.
   const TileCholesky& factor() const { return matrix_; }
   int camera_slots() const { return camera_slots_; }
-  /// Covariance of (log f, k1, cx, cy) after the last factorize(); zero for what is held.
-  Eigen::Matrix4d intrinsics_covariance() const;
+  /// Covariance of (log f, k1, cx, cy, readout) after the last factorize(); zero for what is held.
+  IntrinsicsMatrix intrinsics_covariance() const;
 
   std::size_t memory_bytes() const;
 
  private:
-  static constexpr int kIntrinsics = 4;
-
   // One row of eliminated coupling: W L^-T of a slot, with V = L L^T of its point.
   struct Coupling {
     Eigen::Matrix<double, 6, 3> Y;
@@ -87,19 +86,19 @@ class ReducedSystem {
   void subtract_couplings(const PointFactor& factor);
   void finish_assembly(const BundleProblem& problem, double lambda);
 
-  bool has_intrinsics() const { return free_[0] || free_[1] || free_[2]; }
+  bool has_intrinsics() const { return free_[0] || free_[1] || free_[2] || free_[4]; }
   int slot_count() const { return camera_slots_ + (has_intrinsics() ? 1 : 0); }
 
   TileCholesky matrix_;
   int camera_slots_ = 0;
-  bool free_[kIntrinsics] = {};  // log f, k1, cx, cy
+  bool free_[kIntrinsics] = {};  // log f, k1, cx, cy, readout
   int used_ = 0;
   ResidualIntrinsics constants_ = {};
-  Eigen::Matrix4d F_ = Eigen::Matrix4d::Zero();  // intrinsics block before elimination
-  std::vector<std::int32_t> slots_;              // per camera
-  std::vector<std::uint8_t> active_;             // per point
-  std::vector<CameraBlock> cameras_;             // per camera slot
-  std::vector<double> gradient_;                 // right-hand side, then the step
+  IntrinsicsMatrix F_ = IntrinsicsMatrix::Zero();  // intrinsics block before elimination
+  std::vector<std::int32_t> slots_;                // per camera
+  std::vector<std::uint8_t> active_;               // per point
+  std::vector<CameraBlock> cameras_;               // per camera slot
+  std::vector<double> gradient_;                   // right-hand side, then the step
   std::vector<PointFactor> points_;
   std::vector<Coupling> couplings_;
   std::int32_t coupling_count_ = 0;

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "drivers/geometric/bundle/bundle_problem.hpp"
+
 namespace unisim::geometric {
 
 /// Constants of the shared intrinsics, worked out once per pass.
@@ -12,26 +14,30 @@ struct ResidualIntrinsics {
   double k1;
   double cx;
   double cy;
+  double readout;  ///< seconds
   double inverse_focal2;
   double inverse_scale;  ///< 1 / pixel_scale
 };
 
-/// Rows of r = w (f (x/z, y/z) - d (1 + k1 |d|^2 / f^2)), d = pixel - (cx, cy), and of its
-/// derivatives. Camera tangent: (translation 3, rotation 3) of retract(); intrinsics: (log f,
-/// k1, cx, cy).
+/// log f, k1, cx, cy, readout.
+inline constexpr int kIntrinsics = 5;
+using IntrinsicsVector = Eigen::Matrix<double, kIntrinsics, 1>;
+
+/// Rows of r = w (f (x/z, y/z) - d (1 + k1 |d|^2 / f^2)), d = pixel - readout * sway - (cx, cy),
+/// and of its derivatives. Camera tangent: (translation 3, rotation 3) of retract().
 struct ReprojectionResidual {
   Eigen::Vector2d r;
   Eigen::Matrix<double, 6, 1> camera0, camera1;  ///< d r0, d r1 by the camera
   Eigen::Vector3d point0, point1;                ///< by the point in the world
-  Eigen::Vector4d intrinsics0, intrinsics1;
+  IntrinsicsVector intrinsics0, intrinsics1;
 };
 
-/// r alone, at camera coordinates y with y.z > 0. @param weight  inverse standard deviation
+/// r alone, at camera coordinates y with y.z > 0.
 inline Eigen::Vector2d reprojection_value(const ResidualIntrinsics& in, const Eigen::Vector3d& y,
-                                          double u, double v, double weight) {
-  const double w = weight * in.inverse_scale;
-  const double dx = u - in.cx;
-  const double dy = v - in.cy;
+                                          const BundleObservation& seen) {
+  const double w = seen.weight * in.inverse_scale;
+  const double dx = seen.u - in.readout * seen.sway.x() - in.cx;
+  const double dy = seen.v - in.readout * seen.sway.y() - in.cy;
   const double stretch = 1.0 + in.k1 * (dx * dx + dy * dy) * in.inverse_focal2;
   const double scale = in.focal / y.z();
   return Eigen::Vector2d(w * (scale * y.x() - dx * stretch), w * (scale * y.y() - dy * stretch));
@@ -40,8 +46,8 @@ inline Eigen::Vector2d reprojection_value(const ResidualIntrinsics& in, const Ei
 /// Derivatives at y = R X + t, every row times `factor` (the root of a robust weight, and the
 /// weight).
 inline void reprojection_jacobian(const ResidualIntrinsics& in, const Eigen::Matrix3d& R,
-                                  const Eigen::Vector3d& y, double u, double v, double factor,
-                                  ReprojectionResidual* out) {
+                                  const Eigen::Vector3d& y, const BundleObservation& seen,
+                                  double factor, ReprojectionResidual* out) {
   const double iz = 1.0 / y.z();
   const double mx = y.x() * iz;
   const double my = y.y() * iz;
@@ -51,17 +57,19 @@ inline void reprojection_jacobian(const ResidualIntrinsics& in, const Eigen::Mat
   out->camera1 << 0.0, g, -g * my, -wf * (1.0 + my * my), wf * mx * my, wf * mx;
   out->point0 = g * (R.row(0) - mx * R.row(2)).transpose();
   out->point1 = g * (R.row(1) - my * R.row(2)).transpose();
-  const double dx = u - in.cx;
-  const double dy = v - in.cy;
+  const double dx = seen.u - in.readout * seen.sway.x() - in.cx;
+  const double dy = seen.v - in.readout * seen.sway.y() - in.cy;
   const double r2 = (dx * dx + dy * dy) * in.inverse_focal2;
   const double w = factor * in.inverse_scale;
   const double bend = 2.0 * in.k1 * r2;
   const double stretch = w * (1.0 + in.k1 * r2);
   const double twist = 2.0 * w * in.k1 * in.inverse_focal2;
-  out->intrinsics0 << wf * mx + w * bend * dx, -w * dx * r2, stretch + twist * dx * dx,
-      twist * dx * dy;
-  out->intrinsics1 << wf * my + w * bend * dy, -w * dy * r2, twist * dx * dy,
-      stretch + twist * dy * dy;
+  const double xx = stretch + twist * dx * dx;
+  const double xy = twist * dx * dy;
+  const double yy = stretch + twist * dy * dy;
+  const Eigen::Vector2d& sway = seen.sway;
+  out->intrinsics0 << wf * mx + w * bend * dx, -w * dx * r2, xx, xy, xx * sway.x() + xy * sway.y();
+  out->intrinsics1 << wf * my + w * bend * dy, -w * dy * r2, xy, yy, xy * sway.x() + yy * sway.y();
 }
 
 }  // namespace unisim::geometric

@@ -17,8 +17,13 @@ double gaussian_cost(double value, double mean, double sigma) {
 
 ResidualIntrinsics residual_intrinsics(const BundleIntrinsics& intrinsics, double pixel_scale) {
   const double focal = std::exp(intrinsics.log_focal);
-  return {focal,         intrinsics.k1,         intrinsics.cx,
-          intrinsics.cy, 1.0 / (focal * focal), 1.0 / pixel_scale};
+  return {focal,
+          intrinsics.k1,
+          intrinsics.cx,
+          intrinsics.cy,
+          intrinsics.readout_s,
+          1.0 / (focal * focal),
+          1.0 / pixel_scale};
 }
 
 double point_cost(const BundleProblem& problem, const BundlePoint& point,
@@ -32,7 +37,7 @@ double point_cost(const BundleProblem& problem, const BundlePoint& point,
       cost += huber_cost(kBehindResidual * seen.weight, huber);
       continue;
     }
-    cost += huber_cost(reprojection_value(constants, y, seen.u, seen.v, seen.weight).norm(), huber);
+    cost += huber_cost(reprojection_value(constants, y, seen).norm(), huber);
   }
   return cost;
 }
@@ -44,6 +49,9 @@ double intrinsics_cost(const BundleIntrinsics& in) {
   if (in.free_center) {
     cost += gaussian_cost(in.cx, in.cx_mean, in.center_sigma_px);
     cost += gaussian_cost(in.cy, in.cy_mean, in.center_sigma_px);
+  }
+  if (in.free_readout) {
+    cost += gaussian_cost(in.readout_s, in.readout_mean_s, in.readout_sigma_s);
   }
   return cost;
 }

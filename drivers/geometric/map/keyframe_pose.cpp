@@ -6,6 +6,8 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "drivers/geometric/map/rolling_shutter.hpp"
+
 namespace unisim::geometric {
 
 namespace {
@@ -37,8 +39,11 @@ void KeyframePose::collect_tracks(const State& state) {
     const Landmark& mark = state.map.landmark(slot);
     if (mark.state != LandmarkState::kPlaced || state.map.support(slot) < 2) continue;
     const cv::Point2f& at = state.tracks.point[i];
-    observations_.push_back({mark.position, state.intrinsics.camera.undistort({at.x, at.y}),
-                             mark.soft ? kSoftWeight : 1.0});
+    const cv::Point2f sway = sway_of(state, at, state.tracks.velocity[i]);
+    const double readout = state.intrinsics.readout_s;
+    const Eigen::Vector2d still(at.x - readout * sway.x, at.y - readout * sway.y);
+    observations_.push_back(
+        {mark.position, state.intrinsics.camera.undistort(still), mark.soft ? kSoftWeight : 1.0});
   }
 }
 
@@ -105,7 +110,9 @@ FramePose KeyframePose::solve_old(const State& state, int32_t keyframe, const Ca
     if (seen.landmark < 0) continue;
     const Landmark& mark = state.map.landmark(seen.landmark);
     if (mark.state != LandmarkState::kPlaced) continue;
-    observations_.push_back({mark.position, state.intrinsics.camera.undistort(seen.pixel()), 1.0});
+    observations_.push_back(
+        {mark.position, state.intrinsics.camera.undistort(seen.still(state.intrinsics.readout_s)),
+         1.0});
   }
   const auto count = static_cast<int>(observations_.size());
   const PoseResult result = solve_pose(state.intrinsics.camera, start, observations_.data(), count,

@@ -29,8 +29,8 @@ bool LandmarkGrowth::gather(const State& state, int32_t slot) {
   views_.clear();
   state.map.for_each_observation(slot, [&](const ObservationRef& ref, const Observation& seen) {
     if (!state.map.counts(ref)) return;
-    views_.push_back(
-        {&state.map.keyframe(ref.keyframe).pose, state.intrinsics.camera.normalize(seen.pixel())});
+    views_.push_back({&state.map.keyframe(ref.keyframe).pose,
+                      state.intrinsics.camera.normalize(seen.still(state.intrinsics.readout_s))});
   });
   if (views_.size() > kMaxViews) {
     for (size_t i = 0; i < kMaxViews; ++i) {
@@ -129,7 +129,7 @@ void LandmarkGrowth::run(State* state, int32_t keyframe) {
         triangulate_landmark(state, seen.landmark, kTriangulationGate)) {
       continue;
     }
-    guess_depth(state, seen.landmark, keyframe, seen.pixel());
+    guess_depth(state, seen.landmark, keyframe, seen.still(state->intrinsics.readout_s));
   }
 }
 

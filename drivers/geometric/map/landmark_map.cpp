@@ -103,12 +103,13 @@ ObservationRef LandmarkMap::write(int32_t id, int32_t slot, const cv::Point2f& a
   return ref;
 }
 
-bool LandmarkMap::observe(int32_t slot, const cv::Point2f& at) {
+bool LandmarkMap::observe(int32_t slot, const cv::Point2f& at, const cv::Point2f& sway) {
   const int32_t id = end_id_ - 1;
   if (full(id)) return false;
   Landmark& mark = landmark(slot);
   const bool first = mark.observations == 0;
   const ObservationRef ref = write(id, slot, at);
+  observation(ref).sway = sway;
   (first ? mark.first : observation(mark.last).next) = ref;
   mark.last = ref;
   return true;

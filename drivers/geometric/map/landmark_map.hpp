@@ -32,8 +32,13 @@ struct Observation {
   float x = 0;
   float y = 0;
   bool outlier = false;
+  cv::Point2f sway;  ///< see map/rolling_shutter.hpp
   ObservationRef next;
   Eigen::Vector2d pixel() const { return {x, y}; }
+  /// Where it would have been seen, were all rows read at the time of the middle one.
+  Eigen::Vector2d still(double readout_s) const {
+    return {x - readout_s * sway.x, y - readout_s * sway.y};
+  }
 };
 
 struct Keyframe {
@@ -88,7 +93,7 @@ class LandmarkMap {
   const Landmark& landmark(int32_t slot) const { return landmarks_[static_cast<size_t>(slot)]; }
 
   /// Adds an observation in the newest keyframe. @return false when the keyframe is full
-  bool observe(int32_t slot, const cv::Point2f& at);
+  bool observe(int32_t slot, const cv::Point2f& at, const cv::Point2f& sway = {});
   /// Adds an observation in an older keyframe. @return false when it is full or has the landmark
   bool observe_in(int32_t keyframe, int32_t slot, const cv::Point2f& at);
   Observation& observation(const ObservationRef& ref) {
@@ -138,11 +143,12 @@ class LandmarkMap {
   bool lasts(int32_t slot) const;
   /// Saves the map, or loads one into a map that is as it was made. Landmarks keep their slots.
   /// @param segments numbers of segments that are taken
-  void archive(drivers::Archive* io, int32_t segments);
+  /// @param readout_s observations are saved as if all rows were read at once
+  void archive(drivers::Archive* io, int32_t segments, double readout_s);
 
  private:
   void archive_landmark(drivers::Archive* io, int32_t slot, int32_t segments);
-  void archive_keyframe(drivers::Archive* io, int32_t id, int32_t segments);
+  void archive_keyframe(drivers::Archive* io, int32_t id, int32_t segments, double readout_s);
   void archive_observation(drivers::Archive* io, Observation& seen) const;
   void load_observation(drivers::Archive* io);
   bool full(int32_t id) const {

@@ -33,7 +33,7 @@ bool LandmarkMap::lasts(int32_t slot) const {
   return mark.state == LandmarkState::kPlaced && mark.observations > 0;
 }
 
-void LandmarkMap::archive(drivers::Archive* io, int32_t segments) {
+void LandmarkMap::archive(drivers::Archive* io, int32_t segments, double readout_s) {
   io->part("landmarks");
   int32_t count = io->reading() ? 0 : landmark_capacity();
   while (count > 0 && !lasts(count - 1)) --count;
@@ -57,7 +57,7 @@ void LandmarkMap::archive(drivers::Archive* io, int32_t segments) {
     int32_t id = io->reading() ? 0 : ids()[static_cast<size_t>(k)];
     io->number(id, io->reading() ? end_id_ : 0, drivers::kMostKeyframeId);
     if (io->reading()) push_keyframe(id, 0);
-    archive_keyframe(io, id, segments);
+    archive_keyframe(io, id, segments, readout_s);
   }
   if (!io->reading()) return;
   free_.clear();
@@ -84,7 +84,8 @@ void LandmarkMap::archive_landmark(drivers::Archive* io, int32_t slot, int32_t s
   archive_vector(io, &mark.position);
 }
 
-void LandmarkMap::archive_keyframe(drivers::Archive* io, int32_t id, int32_t segments) {
+void LandmarkMap::archive_keyframe(drivers::Archive* io, int32_t id, int32_t segments,
+                                   double readout_s) {
   Keyframe& frame = keyframe(id);
   io->number(frame.segment, 0, segments - 1);
   io->flag(frame.posed);
@@ -107,7 +108,11 @@ void LandmarkMap::archive_keyframe(drivers::Archive* io, int32_t id, int32_t seg
     } else {
       const int32_t slot = observation(id, i).landmark;
       if (slot < 0 || !lasts(slot)) continue;
-      archive_observation(io, observation(ObservationRef{id, i}));
+      Observation saved = observation(ObservationRef{id, i});
+      const Eigen::Vector2d still = saved.still(readout_s);
+      saved.x = static_cast<float>(still.x());
+      saved.y = static_cast<float>(still.y());
+      archive_observation(io, saved);
     }
     ++k;
   }
@@ -132,7 +137,7 @@ void LandmarkMap::load_observation(drivers::Archive* io) {
   const Landmark& mark = landmark(seen.landmark);
   io->require(mark.state == LandmarkState::kPlaced, "one saw a landmark that is not there");
   io->require(mark.last.keyframe != end_id_ - 1, "one saw a landmark twice");
-  static_cast<void>(observe(seen.landmark, {seen.x, seen.y}));
+  static_cast<void>(observe(seen.landmark, {seen.x, seen.y}, {}));
   observation(mark.last).outlier = seen.outlier;
 }
 

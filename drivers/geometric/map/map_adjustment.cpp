@@ -93,7 +93,8 @@ void MapAdjustment::add_landmark(const State& state, int32_t slot,
     add_loops_before(ref.keyframe);
     const int32_t camera = camera_of_[state.map.slot_of(ref.keyframe)];
     if (camera < 0 || !state.map.counts(ref)) return;
-    views += problem_.add_observation(camera, seen.x, seen.y, 1.0) ? 1 : 0;
+    views +=
+        problem_.add_observation(camera, seen.x, seen.y, 1.0, {seen.sway.x, seen.sway.y}) ? 1 : 0;
   });
   add_loops_before(state.map.end_id());
   if (views < kMinViews) {

@@ -8,6 +8,7 @@
 
 #include "drivers/geometric/map/capacities.hpp"
 #include "drivers/geometric/map/join_segments.hpp"
+#include "drivers/geometric/map/rolling_shutter.hpp"
 #include "drivers/geometric/start/start_report.hpp"
 
 namespace unisim::geometric {
@@ -53,6 +54,7 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
   const bool center_given = config.principal_x_px != 0 || config.principal_y_px != 0;
   state_.intrinsics =
       Intrinsics::start(size, config.focal_px, lens_known, lens_known || center_given);
+  if (config.shutter == UNISIM_SHUTTER_ROLLING) state_.intrinsics.roll(1e-3 * config.readout_ms);
   const auto tracks = static_cast<size_t>(observations_per_keyframe(config));
   state_.tracks.reserve(tracks);
   places_.open(size);
@@ -71,8 +73,11 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
 void Mapper::see(const unisim_frame& frame) {
   keep_place();
   frame_ = frame.index;
+  state_.frame_step_s = 1e-9 * static_cast<double>(frame.timestamp_ns - time_ns_);
   time_ns_ = frame.timestamp_ns;
   front_end_.see(frame.image, frame.timestamp_ns, &state_.tracks);
+  if (after_keyframe_) see_motion_after(&state_);
+  after_keyframe_ = false;
   if (front_end_.jumped()) tell_zoom(frame_);
   if (counts_.started == 0) start_.see_frame(front_end_.gray());
 }
@@ -100,7 +105,9 @@ void Mapper::let_go() {
 
 void Mapper::observe_tracks(size_t first) {
   for (size_t i = first; i < state_.tracks.size(); ++i) {
-    state_.map.observe(state_.tracks.landmark[i], state_.tracks.point[i]);
+    const cv::Point2f& at = state_.tracks.point[i];
+    state_.map.observe(state_.tracks.landmark[i], at,
+                       sway_of(state_, at, state_.tracks.velocity[i]));
   }
 }
 
@@ -131,6 +138,7 @@ bool Mapper::add_keyframe(int32_t id) {
     try_start(id);
   }
   front_end_.end_keyframe(&state_.tracks);
+  after_keyframe_ = true;
   return adjusted;
 }
 

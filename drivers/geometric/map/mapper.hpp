@@ -126,6 +126,7 @@ class Mapper {
   Intrinsics lost_intrinsics_;  // of the map when the track was lost
   bool joining_ = false;        // the adjustment started last is that of a join
   bool zoom_told_ = false;
+  bool after_keyframe_ = false;  // the frame seen last is one
   int lost_in_row_ = 0;
   int32_t unkept_ = -1;         // keyframe whose place has not been kept yet
   int32_t adjusted_posed_ = 0;  // keyframes posed when the whole state was last adjusted

@@ -22,7 +22,7 @@ void Mapper::archive(drivers::Archive* io) {
   io->part("segments");
   io->number(state_.segments, 1, kMostSegments);
   io->number(state_.median_depth, 0.0, kMostDepth);
-  state_.map.archive(io, state_.segments);
+  state_.map.archive(io, state_.segments, state_.intrinsics.readout_s);
   archive_looks(io);
   places_.archive_keyframes(io, state_.map.ids());
   if (!io->reading()) return;

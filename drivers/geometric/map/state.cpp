@@ -83,7 +83,7 @@ double reprojection_error(const State& state, const Observation& seen, const Key
   if (!camera.project_undistorted(from.pose.apply(position), &at)) {
     return std::numeric_limits<double>::infinity();
   }
-  const double error = (at - camera.undistort(seen.pixel())).norm();
+  const double error = (at - camera.undistort(seen.still(state.intrinsics.readout_s))).norm();
   return error >= 0 ? error : std::numeric_limits<double>::infinity();
 }
 

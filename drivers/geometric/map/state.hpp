@@ -40,6 +40,7 @@ struct State {
   cv::Size size;
   double pixel_scale = 1;   ///< image diagonal / 800
   int feature_spacing = 1;  ///< pixels between features
+  double frame_step_s = 0;  ///< between the last two frames, 0: not known
   bool initialised = false;
   int32_t segment = 0;
   int32_t segment_start = 0;  ///< first keyframe of the segment

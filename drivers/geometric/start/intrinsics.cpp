@@ -20,7 +20,11 @@ constexpr double kK1MinRotation = 0.05;
 constexpr double kCenterSigma = 0.005;      // of the image diagonal
 constexpr double kCenterMinRotation = 0.2;  // rad
 constexpr double kMostCenterShift = 0.1;    // of the image diagonal
-constexpr double kMinFocal = 0.3;           // of the image width
+// Seconds: what reads rows one after the other takes most of the time between two frames for it.
+constexpr double kReadoutSigma = 0.02;
+constexpr double kMostReadout = 0.2;
+constexpr double kReadoutMinRotation = 0.05;  // rad
+constexpr double kMinFocal = 0.3;             // of the image width
 constexpr double kMaxFocal = 3.0;
 }  // namespace
 
@@ -43,6 +47,14 @@ bool Intrinsics::k1_observable() const { return turned_rad >= kK1MinRotation; }
 
 bool Intrinsics::center_observable() const { return turned_rad >= kCenterMinRotation; }
 
+bool Intrinsics::readout_observable() const { return turned_rad >= kReadoutMinRotation; }
+
+void Intrinsics::roll(double seconds) {
+  rolling = true;
+  readout_known = seconds != 0;
+  readout_s = seconds;
+}
+
 void Intrinsics::note_rotation(double angle_rad) { turned_rad = std::max(turned_rad, angle_rad); }
 
 void Intrinsics::give(bool early, BundleIntrinsics* out) const {
@@ -52,6 +64,9 @@ void Intrinsics::give(bool early, BundleIntrinsics* out) const {
   out->log_focal_mean = std::log(start_focal);
   out->log_focal_sigma = early ? kStartSigma : 0.0;
   out->free_center = !center_known && !early && center_observable();
+  out->readout_s = readout_s;
+  out->free_readout = rolling && !readout_known && !early && readout_observable();
+  out->readout_sigma_s = kReadoutSigma;
   out->cx_mean = middle.x;
   out->cy_mean = middle.y;
   out->center_sigma_px = center_sigma_px;
@@ -65,11 +80,12 @@ void Intrinsics::give(bool early, BundleIntrinsics* out) const {
 void Intrinsics::take(const BundleIntrinsics& in, const cv::Size& size) {
   const CameraModel model = in.model();
   if (!std::isfinite(model.focal_px) || !std::isfinite(model.k1) || !std::isfinite(model.cx) ||
-      !std::isfinite(model.cy)) {
+      !std::isfinite(model.cy) || !std::isfinite(in.readout_s)) {
     return;
   }
   const double reach = kMostCenterShift * std::hypot(size.width, size.height);
   camera.k1 = model.k1;
+  if (!readout_known) readout_s = std::clamp(in.readout_s, -kMostReadout, kMostReadout);
   camera.cx = std::clamp(model.cx, middle.x - reach, middle.x + reach);
   camera.cy = std::clamp(model.cy, middle.y - reach, middle.y + reach);
   if (focal_known) return;

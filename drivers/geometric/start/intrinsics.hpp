@@ -26,12 +26,18 @@ struct Intrinsics {
   double center_sigma_px = 0;  ///< of the prior on the principal point
   double turned_rad = 0;       ///< largest rotation seen within a segment
   double log_focal_sigma = 0;  ///< from the last adjustment of the whole state, 0: not known
+  bool rolling = false;        ///< rows are read one after the other
+  bool readout_known = false;  ///< how long that takes
+  double readout_s = 0;        ///< from the first row of an image to the last; negative: from below
 
   /// @param focal_px known focal length or 0
   static Intrinsics start(const cv::Size& size, double focal_px, bool k1_known = false,
                           bool center_known = false);
   bool k1_observable() const;
   bool center_observable() const;
+  bool readout_observable() const;
+  /// Rows are read one after the other. @param seconds from first to last, 0: not known
+  void roll(double seconds);
   /// Notes a camera turned by `angle_rad` against the segment's start.
   void note_rotation(double angle_rad);
   /// Sets values, freedoms and priors of a problem.
