@@ -163,7 +163,8 @@ int finish(unisim_predictor* predictor) {
 }
 
 void info(unisim_predictor*, unisim_predictor_info* out) {
-  *out = {525.5, 1.0 / 3.0, -0.033, 4096, 1, 2, 3, 4, nullptr, nullptr, 0, 0, 0, 0, 0, 2.5, -1.25};
+  *out = {525.5, 1.0 / 3.0, -0.033, 4096, 1, 2,   3,     4, nullptr, nullptr,
+          0,     0,         0,      0,    0, 2.5, -1.25, 0, 0,       0};
 }
 
 const char* message(unisim_predictor* predictor) { return self(predictor).text.c_str(); }
