@@ -107,7 +107,7 @@ int32_t DistanceBook::gather(int32_t segment) {
   }
   for (const Entry& entry : distances_) {
     if (belongs(entry, segment) && entry.long_enough) {
-      values_[count++] = {entry.log_metres, measure(entry).information};
+      values_[count++] = {entry.log_metres, entry.information};
     }
   }
   return count;
@@ -131,6 +131,7 @@ void DistanceBook::judge(int32_t segment) {
     entry.long_enough = one.known();
     const Submap& submap = map_.submaps[entry.submap];
     entry.log_metres = one.log_metres - math::log(map_.submap_pose(submap).s);
+    entry.information = one.information;
     entry.weight = 0.0;
   }
   const int32_t count = gather(segment);
@@ -149,9 +150,8 @@ double DistanceBook::doubt(int32_t segment) const {
   for (const Entry& entry : distances_) {
     // One whose window has just left is closed by the next settle().
     if (!is_open(entry.submap) || !belongs(entry, segment) || !entry.long_enough) continue;
-    const double information = measure(entry).information;
-    all = fuse(all, {entry.log_metres, information});
-    weighted = fuse(weighted, {entry.log_metres, information * entry.weight});
+    all = fuse(all, {entry.log_metres, entry.information});
+    weighted = fuse(weighted, {entry.log_metres, entry.information * entry.weight});
   }
   if (!weighted.known()) return 0.0;
   const double moved = std::abs(all.log_metres - weighted.log_metres);
@@ -181,7 +181,7 @@ void DistanceBook::close(int32_t submap) {
     }
     ++(entry.weight > 0.0 ? counts_.taken : counts_.refused);
     if (kept && entry.long_enough) {
-      remember(map_.submaps[submap].segment, {entry.log_metres, measure(entry).information});
+      remember(map_.submaps[submap].segment, {entry.log_metres, entry.information});
     }
     erase(k);
   }

@@ -112,6 +112,8 @@ void DistanceBook::visit_entry(Archive* archive, Entry* entry) {
   visit_positive(archive, &distance.sigma);
   archive->index(&entry->submap, -1, kMostCount);
   archive->finite(&entry->log_metres);
+  archive->finite(&entry->information);
+  archive->expect(entry->information >= 0.0);
   archive->flag(&entry->long_enough);
   archive->finite(&entry->weight);
   archive->expect(entry->weight >= 0.0 && entry->weight <= 1.0);
