@@ -149,7 +149,7 @@ class Session {
   Status add_keyframe(int64_t timestamp_ns, int32_t* id);
   Status add_two_view(const TwoViewInput& input);
 
-  // ---- submaps (session/submaps.cpp, session/revision.cpp)
+  // ---- submaps (session/submaps.cpp, session/submap_update.cpp)
   /// @param[out] id -1 when refused for its quality
   Status add_submap(const SubmapInput& input, bool is_loop, int32_t* id);
   Status update_submap(const SubmapUpdate& update);
@@ -264,7 +264,7 @@ class Session {
   Status measure_metre(int32_t segment);
   void measure_new_metres();
 
-  // session/revision.cpp
+  // session/submap_update.cpp
   bool is_in_range(const SubmapUpdate& update, const Submap& submap) const;
   void update_views(const SubmapUpdate& update, Submap* submap);
   void set_bridge_measurement(const SubmapView& view);
@@ -277,7 +277,7 @@ class Session {
   bool depth_holds() const;
 
   // session/optimize.cpp
-  void describe_changes(OptimizeReport* report);
+  void describe_changes(uint64_t revision_before, OptimizeReport* report);
   void describe_bad_node(OptimizeReport* report) const;
 
   bool holds(Status status) { return map_.holds(status); }

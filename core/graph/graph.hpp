@@ -127,10 +127,15 @@ class Graph {
                                 (stamps.relinked > revision ? kNodeRelinked : 0) |
                                 (stamps.held > revision ? kNodeHeld : 0));
   }
+  /// Whether an edge may say something else than at this revision; edges come and go with their
+  /// nodes relinked.
+  bool edge_changed_since(int32_t id, uint64_t revision) const {
+    return (changes_since(edges_[id].a, revision) | changes_since(edges_[id].b, revision)) != 0;
+  }
 
   // ---- saving and loading (graph_snapshot.cpp); into a graph that is empty
-  // Nodes and edges are visited by those they belong to: to load, each place is taken once, and the
-  // order in which places will be used again is kept, on which the order of all sums depends.
+  // Nodes and edges are visited by those they belong to: to load, each slot is taken once, and the
+  // order in which slots will be used again is kept, on which the order of all sums depends.
   void visit_sizes(Archive* archive);
   /// A node of this kind.
   void visit_node(Archive* archive, NodeKind kind, int32_t* id);
@@ -140,8 +145,8 @@ class Graph {
   void visit_edge(Archive* archive, FactorKind kind, int32_t a, int32_t b, int32_t* id);
   /// Edges of this kind and origin, which belong to nobody.
   void visit_edges(Archive* archive, FactorKind kind, EdgeOrigin origin);
-  /// Places that are free; all others have been visited.
-  void visit_free_places(Archive* archive);
+  /// Slots that are free; all others have been visited.
+  void visit_free_slots(Archive* archive);
 
  private:
   /// Revisions in which things happened to a node.

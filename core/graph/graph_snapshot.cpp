@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A factor graph saved and loaded, place by place.
+// A factor graph saved and loaded, slot by slot.
 
 #include "core/graph/graph.hpp"
 #include "core/graph/slots.hpp"
@@ -10,12 +10,12 @@ namespace {
 /// Ids in the order in which they will be used again; is_free(id): not in use and not seen yet,
 /// which it marks.
 template <class IsFree>
-void visit_places(Archive* archive, FixedVector<int32_t>* places, int32_t count, int32_t end,
-                  const IsFree& is_free) {
-  if (archive->loading()) places->resize(count);
+void visit_slots(Archive* archive, FixedVector<int32_t>* slots, int32_t count, int32_t end,
+                 const IsFree& is_free) {
+  if (archive->loading()) slots->resize(count);
   for (int32_t k = 0; archive->ok() && k < count; ++k) {
-    archive->index(&(*places)[k], 0, end - 1);
-    if (archive->loading() && archive->ok()) archive->expect(is_free((*places)[k]));
+    archive->index(&(*slots)[k], 0, end - 1);
+    if (archive->loading() && archive->ok()) archive->expect(is_free((*slots)[k]));
   }
 }
 
@@ -145,14 +145,14 @@ void Graph::expect_first_pair(Archive* archive, int32_t id) {
   stamps_[edge.b].held = 1;
 }
 
-void Graph::visit_free_places(Archive* archive) {
+void Graph::visit_free_slots(Archive* archive) {
   // Marks on what is free: a node held, an edge suspended.
-  visit_places(archive, &free_nodes_, nodes_.size() - node_count_, nodes_.size(), [&](int32_t id) {
+  visit_slots(archive, &free_nodes_, nodes_.size() - node_count_, nodes_.size(), [&](int32_t id) {
     const bool is_free = !nodes_[id].alive && !nodes_[id].fixed;
     nodes_[id].fixed = true;
     return is_free;
   });
-  visit_places(archive, &free_edges_, edges_.size() - edge_count_, edges_.size(), [&](int32_t id) {
+  visit_slots(archive, &free_edges_, edges_.size() - edge_count_, edges_.size(), [&](int32_t id) {
     const bool is_free = !edges_[id].alive && !edges_[id].suspended;
     edges_[id].suspended = true;
     return is_free;

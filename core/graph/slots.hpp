@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Places of a list that are used again once their element has gone.
+// Slots of a list that are used again once their element has gone.
 #pragma once
 
 #include <cstdint>

@@ -74,12 +74,12 @@ void MetricScale::visit_node(Archive* archive, int32_t node, Graph* graph) {
   visit_evidence(archive, &here.kept);
   visit_evidence(archive, &here.open);
   archive->finite(&here.shown_variance);
-  int32_t place = -1;
+  int32_t slot = -1;
   for (int32_t k = 0; k < metres_.size(); ++k) {
-    if (here.metre >= 0 && metres_[k].node == here.metre) place = k;
+    if (here.metre >= 0 && metres_[k].node == here.metre) slot = k;
   }
-  archive->index(&place, -1, metres_.size() - 1);
-  if (archive->loading()) here.metre = archive->ok() && place >= 0 ? metres_[place].node : -1;
+  archive->index(&slot, -1, metres_.size() - 1);
+  if (archive->loading()) here.metre = archive->ok() && slot >= 0 ? metres_[slot].node : -1;
   if (here.metre < 0 || !archive->ok()) return;
   graph->visit_edge(archive, FactorKind::kMetric, here.metre, node, &here.edge);
   archive->expect(here.edge >= 0);

@@ -74,7 +74,7 @@ struct Submap {
   int32_t segment = -1;  ///< of its origin
   bool is_loop = false;
   bool removed = false;    ///< a loop the host took back, or that gave way at capacity
-  int32_t loop_edge = -1;  ///< of a retired loop: its place among the loop edges, -1: none
+  int32_t loop_edge = -1;  ///< of a retired loop: its slot among the loop edges, -1: none
 
   int32_t count = 0;       ///< views, the unused ones included
   int32_t origin = 0;      ///< view at the submap's origin

@@ -17,10 +17,6 @@ constexpr double kRelinearize = 1e-2;
 // From so many degrees of freedom on, residuals say how sure the measurements are.
 constexpr int32_t kTellingFreedom = 100;
 
-bool moved(const Sim3& before, const Sim3& after) {
-  return sim3_log(between(before, after)).cwiseAbs().maxCoeff() > kLeastMove;
-}
-
 void note_changed(int32_t first, int32_t last, OptimizeReport* report) {
   if (report->first_changed < 0 || first < report->first_changed) report->first_changed = first;
   report->last_changed = std::max(report->last_changed, last);
@@ -59,6 +55,7 @@ double metric_cost(const Graph& graph) {
 Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
   *report = OptimizeReport();
   if (!holds(show_metres())) return Status::kInternal;
+  const uint64_t revision_before = map_.graph.revision();
   for (int32_t node = 0; node < map_.graph.node_end(); ++node)
     before_[node] = map_.graph.pose(node);
   LmOptions options;
@@ -83,7 +80,7 @@ Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
   } else {
     watch_.note_news();
   }
-  describe_changes(report);
+  describe_changes(revision_before, report);
   skeleton_.watch_loops(counts_.optimizations);
   if (!holds(gauge_.apply(&map_.graph))) return Status::kInternal;
   const int32_t freedom = degrees_of_freedom(map_.graph);
@@ -96,11 +93,17 @@ Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
   return status;
 }
 
-void Session::describe_changes(OptimizeReport* report) {
+/// @param revision_before of the graph when before_ was taken
+void Session::describe_changes(uint64_t revision_before, OptimizeReport* report) {
+  const auto moved = [&](int32_t node) {
+    if ((map_.graph.changes_since(node, revision_before) & kNodeMoved) == 0) return false;
+    const Sim3 move = between(before_[node], map_.graph.pose(node));
+    return sim3_log(move).cwiseAbs().maxCoeff() > kLeastMove;
+  };
   const auto describe = [&](int32_t submap, const KeyframeRange& owned) {
     const int32_t node = map_.submaps[submap].place.node;
     const int32_t first = std::max(owned.first, map_.keyframes.first());
-    if (owned.last < first || !moved(before_[node], map_.graph.pose(node))) return;
+    if (owned.last < first || !moved(node)) return;
     note_changed(first, owned.last, report);
   };
   for (const SkeletonNode& node : skeleton_.nodes()) describe(node.submap, node.owned);
@@ -110,7 +113,7 @@ void Session::describe_changes(OptimizeReport* report) {
     const int32_t node = map_.keyframes[id].node;
     if (node < 0) continue;
     newest = id;
-    if (moved(before_[node], map_.graph.pose(node))) note_changed(id, id, report);
+    if (moved(node)) note_changed(id, id, report);
   }
   if (newest < 0) return;
   const Sim3& before = before_[map_.keyframes[newest].node];

@@ -64,7 +64,7 @@ void Session::visit(Archive* archive) {
   archive->section("edges", [&] {
     skeleton_.visit_edges(archive);
     map_.metric.visit(archive, graph);
-    graph->visit_free_places(archive);
+    graph->visit_free_slots(archive);
   });
   archive->section("metric", [&] {
     distances_.visit(archive);

@@ -26,9 +26,9 @@ int32_t replace_chain(Map& map, int32_t id, int32_t a, int32_t b, const ChainLin
   return made;
 }
 
-int32_t LoopEdges::place_of(int32_t edge) const {
-  for (int32_t place = 0; place < edges_.size(); ++place) {
-    if (edges_[place].edge == edge) return place;
+int32_t LoopEdges::slot_of(int32_t edge) const {
+  for (int32_t slot = 0; slot < edges_.size(); ++slot) {
+    if (edges_[slot].edge == edge) return slot;
   }
   return -1;
 }
@@ -44,11 +44,11 @@ bool LoopEdges::join(int32_t a, int32_t b, const ChainLink& link, Submap* loop) 
 }
 
 void LoopEdges::add(int32_t a, int32_t b, const ChainLink& link, Submap* loop) {
-  int32_t place = place_of(-1);
-  if (place < 0) {
-    place = edges_.size();
-    edges_.resize(place + 1);
-    edges_[place] = LoopEdge();
+  int32_t slot = slot_of(-1);
+  if (slot < 0) {
+    slot = edges_.size();
+    edges_.resize(slot + 1);
+    edges_[slot] = LoopEdge();
   }
   LoopEdge made;
   const EdgeWeight weight = {1.0, 1.0, map_.config.kernel(EdgeOrigin::kLoop), EdgeOrigin::kLoop};
@@ -58,102 +58,107 @@ void LoopEdges::add(int32_t a, int32_t b, const ChainLink& link, Submap* loop) {
   made.loop = loop->id;
   made.loops = 1;
   made.health = loop->health;
-  edges_[place] = made;
-  loop->loop_edge = place;
+  edges_[slot] = made;
+  loop->loop_edge = slot;
 }
 
-/// Place of an edge between the same nodes, other than `but`, that says the same. -1: none
+/// Slot of an edge between the same nodes, other than `but`, that says the same. -1: none
 int32_t LoopEdges::fusible(int32_t a, int32_t b, const ChainLink& link, int32_t but) const {
-  for (int32_t place = 0; place < edges_.size(); ++place) {
-    const LoopEdge& other = edges_[place];
-    if (place == but || other.edge < 0 || other.health.suspended) continue;
+  for (int32_t slot = 0; slot < edges_.size(); ++slot) {
+    const LoopEdge& other = edges_[slot];
+    if (slot == but || other.edge < 0 || other.health.suspended) continue;
     const Edge& edge = map_.graph.edge(other.edge);
     if (edge.a != a || edge.b != b) continue;
-    if (disagreement_squared(link, map_.graph.link(edge)) <= kLargestDisagreement) return place;
+    if (disagreement_squared(link, map_.graph.link(edge)) <= kLargestDisagreement) return slot;
   }
   return -1;
 }
 
-void LoopEdges::fuse(int32_t place, const ChainLink& link) {
-  const Edge edge = map_.graph.edge(edges_[place].edge);
+void LoopEdges::fuse(int32_t slot, const ChainLink& link) {
+  const Edge edge = map_.graph.edge(edges_[slot].edge);
   const ChainLink fused = unisim::fuse(map_.graph.link(edge), link);
   // Informations at the end of the range of numbers do not survive a sum.
   if (!valid_link(fused)) return;
-  edges_[place].edge = replace_chain(map_, edges_[place].edge, edge.a, edge.b, fused);
+  edges_[slot].edge = replace_chain(map_, edges_[slot].edge, edge.a, edge.b, fused);
 }
 
 /// Loops that do not agree stay rivals.
 void LoopEdges::fuse_at(int32_t node) {
-  for (int32_t place = 0; place < edges_.size(); ++place) {
-    const LoopEdge one = edges_[place];
+  for (int32_t slot = 0; slot < edges_.size(); ++slot) {
+    const LoopEdge one = edges_[slot];
     if (one.edge < 0 || one.health.suspended) continue;
     const Edge edge = map_.graph.edge(one.edge);
     if (edge.a != node && edge.b != node) continue;
     const ChainLink link = map_.graph.link(edge);
-    const int32_t other = fusible(edge.a, edge.b, link, place);
+    const int32_t other = fusible(edge.a, edge.b, link, slot);
     if (other < 0) continue;
     fuse(other, link);
     edges_[other].loops += one.loops;
     edges_[other].loop = std::max(edges_[other].loop, one.loop);
     map_.holds(map_.graph.remove_edge(one.edge));
-    release(place, other);
+    release(slot, other);
   }
 }
 
-void LoopEdges::release(int32_t place, int32_t into) {
-  watch_.leave(edges_[place].health);
-  edges_[place] = LoopEdge();
+void LoopEdges::release(int32_t slot, int32_t into) {
+  watch_.leave(edges_[slot].health);
+  edges_[slot] = LoopEdge();
   for (int32_t k = 0; k < map_.submaps.size(); ++k) {
-    if (map_.submaps.at(k).loop_edge == place) map_.submaps.at(k).loop_edge = into;
+    if (map_.submaps.at(k).loop_edge == slot) map_.submaps.at(k).loop_edge = into;
   }
 }
 
-int32_t LoopEdges::remove(int32_t place) {
-  const LoopEdge gone = edges_[place];
+int32_t LoopEdges::remove(int32_t slot) {
+  const LoopEdge gone = edges_[slot];
   for (int32_t k = 0; k < map_.submaps.size(); ++k) {
-    if (map_.submaps.at(k).loop_edge == place) map_.submaps.at(k).removed = true;
+    if (map_.submaps.at(k).loop_edge == slot) map_.submaps.at(k).removed = true;
   }
   map_.holds(map_.graph.remove_edge(gone.edge));
-  release(place, -1);
+  release(slot, -1);
   return gone.loops;
 }
 
-void LoopEdges::drop(int32_t place) {
+void LoopEdges::drop(int32_t slot) {
   LogLine line;
-  line << "loop " << edges_[place].loop
+  line << "loop " << edges_[slot].loop
        << " dropped: loop edges at their limit, another says much the same";
   line.send(map_.config.log, LogLevel::kInfo);
-  dropped_loops_ += remove(place);
+  dropped_loops_ += remove(slot);
 }
 
 void LoopEdges::drop_at(int32_t node) {
-  for (int32_t place = 0; place < edges_.size(); ++place) {
-    const int32_t id = edges_[place].edge;
+  for (int32_t slot = 0; slot < edges_.size(); ++slot) {
+    const int32_t id = edges_[slot].edge;
     if (id < 0) continue;
     const Edge& edge = map_.graph.edge(id);
-    if (edge.a == node || edge.b == node) drop(place);
+    if (edge.a == node || edge.b == node) drop(slot);
   }
 }
 
 /// Measured: moving the ends of that edge to those of the other and fusing the two is no better.
-int32_t LoopEdges::weakest(Span<const int32_t> order) const {
+int32_t LoopEdges::weakest(Span<const int32_t> order) {
+  for (LoopEdge& loop : edges_) {
+    if (loop.edge < 0) continue;
+    loop.order_a = order[map_.graph.edge(loop.edge).a];
+    loop.order_b = order[map_.graph.edge(loop.edge).b];
+  }
+  const auto information = [&](int32_t slot) {
+    return map_.graph.link(map_.graph.edge(edges_[slot].edge)).Lambda.trace();
+  };
   int32_t weakest = -1;
   int32_t nearest = std::numeric_limits<int32_t>::max();
   for (int32_t one = 0; one < edges_.size(); ++one) {
     if (edges_[one].edge < 0) continue;
     if (edges_[one].health.suspended) return one;
     if (weakest < 0) weakest = one;
-    const Edge& edge = map_.graph.edge(edges_[one].edge);
-    for (int32_t other = one + 1; other < edges_.size(); ++other) {
-      if (edges_[other].edge < 0) continue;
-      const Edge& rival = map_.graph.edge(edges_[other].edge);
+    const LoopEdge& loop = edges_[one];
+    for (int32_t other = one + 1; nearest > 0 && other < edges_.size(); ++other) {
+      const LoopEdge& rival = edges_[other];
       const int32_t apart =
-          std::abs(order[edge.a] - order[rival.a]) + std::abs(order[edge.b] - order[rival.b]);
-      if (apart >= nearest) continue;
+          std::abs(loop.order_a - rival.order_a) + std::abs(loop.order_b - rival.order_b);
+      if (apart >= nearest || rival.edge < 0) continue;
       nearest = apart;
-      const bool surer =
-          map_.graph.link(edge).Lambda.trace() > map_.graph.link(rival).Lambda.trace();
-      weakest = surer ? other : one;
+      weakest = information(one) > information(other) ? other : one;
     }
   }
   return weakest;
@@ -168,8 +173,8 @@ void LoopEdges::visit(Archive* archive) {
   if (!archive->ok()) return;
   if (archive->loading()) edges_.resize(count);
   int64_t loops = dropped_loops_;
-  for (int32_t place = 0; archive->ok() && place < count; ++place) {
-    LoopEdge& loop = edges_[place];
+  for (int32_t slot = 0; archive->ok() && slot < count; ++slot) {
+    LoopEdge& loop = edges_[slot];
     if (archive->loading()) loop = LoopEdge();
     bool in_use = loop.edge >= 0;
     archive->flag(&in_use);

@@ -34,7 +34,8 @@ void LoopWatch::look_at(Submap* loop, int64_t now) {
 void LoopWatch::look_at(LoopEdge* loop, int64_t now) {
   if (loop->edge < 0) return;
   if (!is_waiting(loop->health, now)) {
-    judge(&loop->health, loop->loop, map_.graph.edge_norm(loop->edge), now);
+    judge(&loop->health, loop->loop, norm_of(*loop), now);
+    loop->looked_at = map_.graph.revision();
   }
   suspend_edge(loop->edge, loop->health.suspended);
 }
@@ -89,6 +90,12 @@ double LoopWatch::norm_of(const Submap& loop) const {
     if (count > 0) worst = std::max(worst, median({norms, count}));
   }
   return worst;
+}
+
+/// The skeleton is held most of the time: an edge between nodes that stay is as it was.
+double LoopWatch::norm_of(const LoopEdge& loop) const {
+  const bool same = !map_.graph.edge_changed_since(loop.edge, loop.looked_at);
+  return same ? loop.health.norm : map_.graph.edge_norm(loop.edge);
 }
 
 void LoopWatch::suspend_edges(const Submap& loop, bool suspended) {

@@ -53,6 +53,7 @@ class LoopWatch {
   void judge(LoopHealth* health, int32_t loop, double norm, int64_t now);
   void come_back(LoopHealth* health, LogLine* line);
   double norm_of(const Submap& loop) const;
+  double norm_of(const LoopEdge& loop) const;
   void place_again(const Submap& loop);
 
   Map& map_;

@@ -120,9 +120,9 @@ void Skeleton::move_chains(int32_t a, int32_t b, const Sim3& T_a_b) {
     if (!map_.graph.has_edge(id)) continue;
     const Edge edge = map_.graph.edge(id);
     if (edge.kind != FactorKind::kChain || (edge.a != b && edge.b != b)) continue;
-    const int32_t place = loop_edges_.place_of(id);
+    const int32_t slot = loop_edges_.slot_of(id);
     if (joins(edge, a, b)) {
-      if (place >= 0) loop_edges_.release(place, -1);
+      if (slot >= 0) loop_edges_.release(slot, -1);
       continue;
     }
     const ChainLink link = map_.graph.link(edge);
@@ -132,7 +132,7 @@ void Skeleton::move_chains(int32_t a, int32_t b, const Sim3& T_a_b) {
     // Informations at the end of the range of numbers do not survive two inversions.
     if (!valid_link(moved)) moved.Lambda = link.Lambda;
     const int32_t made = replace_chain(map_, id, first ? a : edge.a, first ? edge.b : a, moved);
-    if (place >= 0) loop_edges_[place].edge = made;
+    if (slot >= 0) loop_edges_[slot].edge = made;
   }
 }
 

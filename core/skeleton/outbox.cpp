@@ -39,19 +39,19 @@ Status Outbox::next(const KeyframeRing& keyframes, int32_t end, Retired* retired
 
 /// Those that wait are numbered from 0 on again.
 void Outbox::visit(Archive* archive, const KeyframeRing& keyframes, int32_t next_submap) {
-  const int32_t places = merges_.size();
+  const int32_t slots = merges_.size();
   archive->index(&offered_, 0, keyframes.size());
   archive->index(&unread_, 0, kMostCount);
   int32_t made = made_ - read_;
-  int32_t kept = std::min(made, places);
+  int32_t kept = std::min(made, slots);
   archive->index(&made, 0, kMostCount);
   archive->index(&kept, 0, made);
   for (int32_t k = made - kept; archive->ok() && k < made; ++k) {
-    const bool lost = archive->loading() && k < made - places;
+    const bool lost = archive->loading() && k < made - slots;
     Retired merge;
-    if (!archive->loading()) merge = merges_[(read_ + k) % places];
+    if (!archive->loading()) merge = merges_[(read_ + k) % slots];
     visit_merge(archive, next_submap, &merge);
-    if (archive->loading() && !lost) merges_[k % places] = merge;
+    if (archive->loading() && !lost) merges_[k % slots] = merge;
   }
   if (!archive->loading()) return;
   made_ = made;

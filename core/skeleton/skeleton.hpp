@@ -167,7 +167,7 @@ class Skeleton {
   LoopEdges loop_edges_;
   Outbox outbox_;
   ChainMaker chains_;
-  Span<int32_t> order_;  // node -> place in time among skeleton and window
+  Span<int32_t> order_;  // node -> position in time among skeleton and window
   int32_t live_from_;
   SkeletonCounts counts_;
 };

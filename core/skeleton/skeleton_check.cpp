@@ -22,8 +22,8 @@ bool Skeleton::is_skeleton(int32_t node) const {
   return is_carrier(node) && order_[node] < nodes_.size();
 }
 
-/// Their place in time, by node. false: the list of skeleton nodes is not that of the submaps that
-/// are such nodes.
+/// Their position in time, by node. false: the list of skeleton nodes is not that of the submaps
+/// that are such nodes.
 bool Skeleton::mark_carriers() {
   order_.fill(-1);
   for (int32_t k = 0; k < nodes_.size(); ++k) {
@@ -94,8 +94,8 @@ bool Skeleton::loop_holds(const Submap& loop) const {
 bool Skeleton::retired_holds(const Submap& submap) const {
   if (!is_carrier(submap.place.node)) return false;
   if (submap.is_loop) {
-    const int32_t place = submap.loop_edge;
-    return place < 0 || loop_edges_.in_use(place);
+    const int32_t slot = submap.loop_edge;
+    return slot < 0 || loop_edges_.in_use(slot);
   }
   if (submap.removed || submap.loop_edge >= 0 || !is_skeleton(submap.place.node)) return false;
   return holds_all(nodes_[order_[submap.place.node]].owned, submap.owned);

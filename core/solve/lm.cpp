@@ -55,6 +55,7 @@ LevenbergMarquardt::LevenbergMarquardt(Arena& arena, const SolverCapacity& capac
 // Marks the columns whose part of the gradient has changed, those of changed nodes and next to a
 // node that has moved; and whose part of H has.
 void LevenbergMarquardt::note_changes(const Graph& graph) {
+  if (graph.revision() == seen_revision_) return;
   for (int32_t id = 0; id < graph.node_end(); ++id) {
     const int32_t column = pattern_.column_of_node(id);
     const uint8_t changes = graph.changes_since(id, seen_revision_);
@@ -91,17 +92,17 @@ void LevenbergMarquardt::note_changed_edge(const Graph& graph, int32_t id) {
 
 // What is fixed decides the structure.
 void LevenbergMarquardt::hold_skeleton(bool hold) {
-  if (hold != pattern_.holds_skeleton()) structure_revision_ = 0;
+  if (hold != pattern_.holds_skeleton()) held_otherwise_ = true;
   pattern_.hold_skeleton(hold);
 }
 
 Status LevenbergMarquardt::prepare(const Graph& graph, const LmObserver& observer) {
   const bool known = structure_revision_ != 0;
   if (known) note_changes(graph);
-  if (graph.structure_revision() == structure_revision_) return Status::kOk;
+  if (graph.structure_revision() == structure_revision_ && !held_otherwise_) return Status::kOk;
   structure_revision_ = 0;
   undamped_revision_ = 0;
-  if (!known || !reorder_changed(graph, observer)) {
+  if (!known || held_otherwise_ || !reorder_changed(graph, observer)) {
     tell(observer, LmPhase::kOrder, LmReport());
     Status status = pattern_.build(graph);
     if (!is_ok(status)) return status;
@@ -109,11 +110,12 @@ Status LevenbergMarquardt::prepare(const Graph& graph, const LmObserver& observe
     status = cholesky_.analyze(pattern_.column_start(), pattern_.rows());
     if (!is_ok(status)) return status;
     fill_ = fill_per_column();
-    equations_.forget_points();
+    if (!known) equations_.forget_points();
     equations_.mark_all_changed();
     seen_revision_ = graph.revision();
   }
   structure_revision_ = graph.structure_revision();
+  held_otherwise_ = false;
   return Status::kOk;
 }
 

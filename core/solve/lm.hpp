@@ -105,6 +105,7 @@ class LevenbergMarquardt {
   Span<BlockVector> forward_;  // L^-1 (-g)
   Span<BlockVector> step_;
   Span<Sim3> saved_;
+  bool held_otherwise_ = false;      // the skeleton counted as free before and is held now, or so
   double relinearize_ = 0.0;         // of the present options
   double fill_ = 0.0;                // blocks per column of the last order of all columns
   double step_size_ = 0.0;           // largest component of step_

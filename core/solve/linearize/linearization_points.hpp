@@ -38,6 +38,8 @@ class LinearizationPoints {
   /// Whether the edge was linearised at the present poses.
   bool is_here(int32_t id) const { return states_[id] != State::kElsewhere; }
   bool knows(int32_t id) const { return states_[id] != State::kUnknown; }
+  /// Whether the cost that was said is that at the present poses.
+  bool cost_holds(int32_t id) const { return states_[id] == State::kHere; }
   /// Of an edge that is known: D, and the weight of its robust kernel.
   const Sim3& relative_pose(int32_t id) const { return relative_[id]; }
   double robust_weight(int32_t id) const { return weight_[id]; }

@@ -103,6 +103,9 @@ double NormalEquations::linearize(const Graph& graph, const BlockPattern& patter
       edge_cost_[id] = 0.0;
       continue;
     }
+    // Between two fixed nodes only the cost is wanted.
+    const bool fixed = pattern.column_of_node(edge.a) < 0 && pattern.column_of_node(edge.b) < 0;
+    if (fixed && points_.cost_holds(id)) continue;
     const Ends ends = ends_of(graph, id);
     if (!ends.needs_blocks && !ends.needs_gradient) continue;
     const bool moves_here = ends.is_whole && !points_.is_here(id);
