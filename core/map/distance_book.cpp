@@ -116,8 +116,8 @@ int32_t DistanceBook::gather(int32_t segment) {
 /// What those before and after number `place` of the gathered ones say together with it. Not all of
 /// them: scale that drifts is no slip.
 Consensus DistanceBook::around(int32_t place, int32_t count) const {
-  const int32_t first = std::max(place - kAround, 0);
-  const int32_t end = std::min(place + kAround + 1, count);
+  const int32_t first = std::max<int32_t>(place - kAround, 0);
+  const int32_t end = std::min<int32_t>(place + kAround + 1, count);
   ScaleEvidence near[2 * kAround + 1];
   for (int32_t k = first; k < end; ++k) near[k - first] = values_[k];
   return consensus_of({near, end - first});

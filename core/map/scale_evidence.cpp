@@ -37,13 +37,25 @@ double Consensus::weight(const ScaleEvidence& one) const {
   return share < 1.0 ? (1.0 - share) * (1.0 - share) : 0.0;
 }
 
+namespace {
+
+/// By insertion: they are few, and std::sort would be 2 kB of code.
+void sort_by_metres(Span<ScaleEvidence> all) {
+  for (int32_t k = 1; k < all.size(); ++k) {
+    const ScaleEvidence one = all[k];
+    int32_t to = k;
+    for (; to > 0 && one.log_metres < all[to - 1].log_metres; --to) all[to] = all[to - 1];
+    all[to] = one;
+  }
+}
+
+}  // namespace
+
 Consensus consensus_of(Span<ScaleEvidence> all) {
   constexpr int32_t kRounds = 3;
   // Standard deviations of a normal distribution in half the length of its middle half.
   constexpr double kHalf = 0.6745;
-  std::sort(all.begin(), all.end(), [](const ScaleEvidence& a, const ScaleEvidence& b) {
-    return a.log_metres < b.log_metres;
-  });
+  sort_by_metres(all);
   Consensus most;
   most.count = all.size();
   const int32_t half = all.size() / 2;
