@@ -2,8 +2,11 @@
 // The ground under the cameras of a window.
 #include "drivers/pipeline/ground_plane.hpp"
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "drivers/common/median.hpp"
 #include "drivers/pipeline/similarity.hpp"
@@ -38,52 +41,48 @@ class Choice {
   uint64_t state_ = 88172645463325252ULL;
 };
 
-std::array<double, 3> axis_y(const unisim_sim3& T) {
-  const double x = T.q[0];
-  const double y = T.q[1];
-  const double z = T.q[2];
-  const double w = T.q[3];
-  return {2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)};
+Eigen::Quaterniond rotation(const unisim_sim3& T) {
+  return Eigen::Quaterniond(T.q[3], T.q[0], T.q[1], T.q[2]);
 }
 
-std::array<double, 3> cross(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+/// down = a x + b y + c, in a frame whose third axis points down.
+struct Plane {
+  double a = 0.0;
+  double b = 0.0;
+  double c = 0.0;
+  double below(const Eigen::Vector3d& p) const { return p[2] - a * p[0] - b * p[1] - c; }
+};
 
-double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-bool normalise(std::array<double, 3>* v) {
-  const double length = std::sqrt(dot(*v, *v));
-  if (!(length > 1e-9)) return false;
-  for (double& value : *v) value /= length;
+bool plane_through(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r,
+                   Plane* plane) {
+  const Eigen::Vector3d n = (q - p).cross(r - p);
+  if (!(std::hypot(n[0], n[1]) < kSteepest * std::abs(n[2]))) return false;
+  plane->a = -n[0] / n[2];
+  plane->b = -n[1] / n[2];
+  plane->c = p[2] - plane->a * p[0] - plane->b * p[1];
   return true;
 }
 
-/// x of A x = b by Cramer's rule, A symmetric.
-bool solve(const double A[3][3], const double b[3], double x[3]) {
-  const auto det = [](const double m[3][3]) {
-    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-           m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-  };
-  const double whole = det(A);
-  if (!(std::abs(whole) > 1e-12)) return false;
-  for (int k = 0; k < 3; ++k) {
-    double m[3][3];
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) m[r][c] = c == k ? b[r] : A[r][c];
-    }
-    x[k] = det(m) / whole;
-  }
-  return true;
-}
+class GroundSearch {
+ public:
+  GroundPlane run(const unisim_window_prediction& window, int32_t image_width,
+                  int32_t image_height);
 
-}  // namespace
+ private:
+  void take_samples(const unisim_window_prediction& window, double width, double height);
+  bool turn_down(const unisim_window_prediction& window);
+  double height_over(const Plane& plane, double* spread);
+  double cost_of(const Plane& plane, double tolerance) const;
+  bool fit(double tolerance, Plane* plane) const;
+  GroundPlane judge(const Plane& plane, double height, double spread) const;
+
+  std::vector<Eigen::Vector3d> samples_;  // of the window, then with down
+  std::vector<Eigen::Vector3d> cameras_;
+  std::vector<double> heights_;
+};
 
 /// The sure cells of the lower part of each view.
-void GroundFinder::take_samples(const unisim_window_prediction& window, double width,
+void GroundSearch::take_samples(const unisim_window_prediction& window, double width,
                                 double height) {
   samples_.clear();
   for (int32_t view = 0; view < window.count; ++view) {
@@ -100,7 +99,7 @@ void GroundFinder::take_samples(const unisim_window_prediction& window, double w
         const double y = ((row + 0.5) / map.height - 0.5) * height;
         const unisim_sim3 at = {{0.0, 0.0, 0.0, 1.0}, {x * depth, y * depth, depth}, 1.0};
         const unisim_sim3 place = compose(window.T_window_kf[view], at);
-        samples_.push_back({place.t[0], place.t[1], place.t[2]});
+        samples_.emplace_back(place.t);
       }
     }
   }
@@ -112,43 +111,31 @@ void GroundFinder::take_samples(const unisim_window_prediction& window, double w
 }
 
 /// Samples and cameras get a frame whose third axis is what the cameras on the whole call down.
-bool GroundFinder::turn_down(const unisim_window_prediction& window) {
-  Place down{};
+bool GroundSearch::turn_down(const unisim_window_prediction& window) {
+  Eigen::Vector3d down = Eigen::Vector3d::Zero();
   for (int32_t view = 0; view < window.count; ++view) {
-    const Place y = axis_y(window.T_window_kf[view]);
-    for (size_t k = 0; k < 3; ++k) down[k] += y[k];
+    down += rotation(window.T_window_kf[view]) * Eigen::Vector3d::UnitY();
   }
-  if (!normalise(&down)) return false;
-  Place one = std::abs(down[0]) < 0.8 ? Place{1.0, 0.0, 0.0} : Place{0.0, 0.0, 1.0};
-  one = cross(down, one);
-  if (!normalise(&one)) return false;
-  const Place two = cross(down, one);
-  const auto turned = [&](const Place& p) { return Place{dot(one, p), dot(two, p), dot(down, p)}; };
-  for (Place& sample : samples_) sample = turned(sample);
+  constexpr double kLeast = 1e-9;  // of views that look all ways
+  if (!(down.norm() > kLeast)) return false;
+  down.normalize();
+  Eigen::Matrix3d turn;
+  turn.row(0) = down.unitOrthogonal();
+  turn.row(1) = down.cross(turn.row(0).transpose());
+  turn.row(2) = down;
+  for (Eigen::Vector3d& sample : samples_) sample = turn * sample;
   cameras_.clear();
   for (int32_t view = 0; view < window.count; ++view) {
-    const double* t = window.T_window_kf[view].t;
-    cameras_.push_back(turned({t[0], t[1], t[2]}));
+    cameras_.emplace_back(turn * Eigen::Vector3d(window.T_window_kf[view].t));
   }
-  return true;
-}
-
-bool GroundFinder::through(const Place& p, const Place& q, const Place& r, Plane* plane) const {
-  const Place u = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
-  const Place v = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
-  const Place n = cross(u, v);
-  if (!(std::hypot(n[0], n[1]) < kSteepest * std::abs(n[2]))) return false;
-  plane->a = -n[0] / n[2];
-  plane->b = -n[1] / n[2];
-  plane->c = p[2] - plane->a * p[0] - plane->b * p[1];
   return true;
 }
 
 /// Median height of the cameras. @param[out] spread relative
-double GroundFinder::height_over(const Plane& plane, double* spread) {
+double GroundSearch::height_over(const Plane& plane, double* spread) {
   const double slant = std::sqrt(1.0 + plane.a * plane.a + plane.b * plane.b);
   heights_.clear();
-  for (const Place& camera : cameras_) heights_.push_back(-plane.below(camera) / slant);
+  for (const Eigen::Vector3d& camera : cameras_) heights_.push_back(-plane.below(camera) / slant);
   const double height = drivers::median(&heights_);
   for (double& one : heights_) one = std::abs(one - height);
   constexpr double kNormal = 1.4826;  // standard deviations per median absolute deviation
@@ -157,9 +144,9 @@ double GroundFinder::height_over(const Plane& plane, double* spread) {
 }
 
 /// Points in the plane count by how near they are, those below it against it.
-double GroundFinder::cost_of(const Plane& plane, double tolerance) const {
+double GroundSearch::cost_of(const Plane& plane, double tolerance) const {
   double cost = 0.0;
-  for (const Place& sample : samples_) {
+  for (const Eigen::Vector3d& sample : samples_) {
     const double below = plane.below(sample) / tolerance;
     cost += below > 3.0 ? 2.0 : std::min(1.0, below * below);
   }
@@ -167,28 +154,30 @@ double GroundFinder::cost_of(const Plane& plane, double tolerance) const {
 }
 
 /// Least squares of the points in the plane.
-bool GroundFinder::fit(double tolerance, Plane* plane) const {
-  double A[3][3] = {};
-  double b[3] = {};
-  for (const Place& sample : samples_) {
+bool GroundSearch::fit(double tolerance, Plane* plane) const {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& sample : samples_) {
     if (std::abs(plane->below(sample)) > tolerance) continue;
-    const double row[3] = {sample[0], sample[1], 1.0};
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) A[r][c] += row[r] * row[c];
-      b[r] += row[r] * sample[2];
-    }
+    const Eigen::Vector3d row(sample.x(), sample.y(), 1.0);
+    A += row * row.transpose();
+    b += row * sample.z();
   }
-  double x[3];
-  if (!solve(A, b, x)) return false;
+  constexpr double kLeastDeterminant = 1e-12;
+  Eigen::Matrix3d inverse;
+  bool invertible = false;
+  A.computeInverseWithCheck(inverse, invertible, kLeastDeterminant);
+  if (!invertible) return false;
+  const Eigen::Vector3d x = inverse * b;
   *plane = {x[0], x[1], x[2]};
   return true;
 }
 
-GroundPlane GroundFinder::judge(const Plane& plane, double height, double spread) const {
+GroundPlane GroundSearch::judge(const Plane& plane, double height, double spread) const {
   GroundPlane ground;
   int below = 0;
   double squares = 0.0;
-  for (const Place& sample : samples_) {
+  for (const Eigen::Vector3d& sample : samples_) {
     const double off = plane.below(sample) / height;
     if (std::abs(off) <= kTolerance) {
       ++ground.points;
@@ -213,8 +202,8 @@ GroundPlane GroundFinder::judge(const Plane& plane, double height, double spread
   return ground;
 }
 
-GroundPlane GroundFinder::find(const unisim_window_prediction& window, int32_t image_width,
-                               int32_t image_height) {
+GroundPlane GroundSearch::run(const unisim_window_prediction& window, int32_t image_width,
+                              int32_t image_height) {
   GroundPlane none;
   none.reason = "the window has no depth, or does not know its focal length";
   if (!(window.focal_px > 0.0) || window.count < 2) return none;
@@ -227,11 +216,11 @@ GroundPlane GroundFinder::find(const unisim_window_prediction& window, int32_t i
   double spread = 0.0;
   const size_t count = samples_.size();
   for (int k = 0; k < kTries; ++k) {
-    const Place& p = samples_[choice.next(count)];
-    const Place& q = samples_[choice.next(count)];
-    const Place& r = samples_[choice.next(count)];
+    const Eigen::Vector3d& p = samples_[choice.next(count)];
+    const Eigen::Vector3d& q = samples_[choice.next(count)];
+    const Eigen::Vector3d& r = samples_[choice.next(count)];
     Plane plane;
-    if (!through(p, q, r, &plane)) continue;
+    if (!plane_through(p, q, r, &plane)) continue;
     const double here = height_over(plane, &spread);
     if (!(here > 0.0) || spread > 3.0 * kMostSpread) continue;
     const double cost = cost_of(plane, kTolerance * here);
@@ -248,6 +237,13 @@ GroundPlane GroundFinder::find(const unisim_window_prediction& window, int32_t i
     if (!(height > 0.0)) return none;
   }
   return judge(best, height, spread);
+}
+
+}  // namespace
+
+GroundPlane find_ground(const unisim_window_prediction& window, int32_t image_width,
+                        int32_t image_height) {
+  return GroundSearch().run(window, image_width, image_height);
 }
 
 }  // namespace unisim::pipeline

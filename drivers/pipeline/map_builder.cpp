@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/pipeline/ground_plane.hpp"
+
 namespace unisim::pipeline {
 
 MapBuilder::MapBuilder(const Parts& parts, size_t max_submaps)
@@ -211,7 +213,7 @@ bool MapBuilder::focal_given() const {
 /// How high a camera is over the ground says how long the unit of a window is that sees it.
 void MapBuilder::take_height(int32_t submap_id, const unisim_window_prediction& window) {
   if (!(parts_.camera_height > 0.0)) return;
-  const GroundPlane ground = ground_.find(window, image_width_, image_height_);
+  const GroundPlane ground = find_ground(window, image_width_, image_height_);
   if (!(ground.height > 0.0)) {
     parts_.messages->say(
         MessageKind::kNoGround,

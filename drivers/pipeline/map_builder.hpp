@@ -9,7 +9,6 @@
 
 #include "drivers/pipeline/back_lane.hpp"
 #include "drivers/pipeline/distance_feeder.hpp"
-#include "drivers/pipeline/ground_plane.hpp"
 #include "drivers/pipeline/latency_histogram.hpp"
 #include "drivers/pipeline/listener.hpp"
 #include "drivers/pipeline/loop_closer.hpp"
@@ -150,7 +149,6 @@ class MapBuilder {
   WideWindows wide_windows_;
   DistanceFeeder distances_;
   MetreBook metres_;
-  GroundFinder ground_;
   int32_t image_width_ = 0;  // of the frames
   int32_t image_height_ = 0;
   std::unique_ptr<LoopCloser> loops_;  // NULL: none are looked for

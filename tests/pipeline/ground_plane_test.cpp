@@ -10,7 +10,7 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"
 
-using unisim::pipeline::GroundFinder;
+using unisim::pipeline::find_ground;
 using unisim::pipeline::GroundPlane;
 
 namespace {
@@ -64,8 +64,7 @@ struct Window {
 };
 
 GroundPlane ground_of(const Window& window) {
-  GroundFinder finder;
-  return finder.find(window.window, kImageWidth, kImageHeight);
+  return find_ground(window.window, kImageWidth, kImageHeight);
 }
 
 /// A corridor of this half width with a floor so far below the camera and a wall at its end.
