@@ -2,9 +2,9 @@
 """Hard conditions for benchmark.py: each makes of a recording one that is worse in one respect.
 
 What a condition makes are pairs (image, index): BGR pixels and the frame of the recording whose pose they have,
-None where no pose is to be compared. One that makes nothing takes the recording as it is. Frames follow each other at the recording's own rate unless it says else.
-Sizes in pixels are of a 640 pixel wide image and scale with the width. The seeds are fixed: the same
-recording gives the same images.
+None where no pose is to be compared. One that makes nothing takes the recording as it is. Frames follow each other at
+the recording's own rate unless it says else. Sizes in pixels are of a 640 pixel wide image and scale with the width.
+The seeds are fixed: the same recording gives the same images.
 """
 from dataclasses import dataclass, field
 from typing import Callable, Optional

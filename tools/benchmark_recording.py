@@ -50,8 +50,7 @@ class Video:
             self.next += 1
         if self.stretched:
             image = cv2.resize(image, tuple(self.stretched), interpolation=cv2.INTER_AREA)
-        self.kept = {number - 1: self.kept.get(number - 1), number: image}
-        self.kept = {key: value for key, value in self.kept.items() if value is not None}
+        self.kept = {key: kept for key, kept in self.kept.items() if key == number - 1} | {number: image}
         return image
 
 

@@ -106,9 +106,7 @@ int32_t DistanceBook::gather(int32_t segment) {
     if (old.segment == segment) values_[count++] = old.world;
   }
   for (const Entry& entry : distances_) {
-    if (belongs(entry, segment) && entry.long_enough) {
-      values_[count++] = {entry.log_metres, entry.information};
-    }
+    if (belongs(entry, segment) && entry.world.known()) values_[count++] = entry.world;
   }
   return count;
 }
@@ -127,18 +125,15 @@ Consensus DistanceBook::around(int32_t place, int32_t count) const {
 void DistanceBook::judge(int32_t segment) {
   for (Entry& entry : distances_) {
     if (!belongs(entry, segment)) continue;
-    const ScaleEvidence one = measure(entry);
-    entry.long_enough = one.known();
     const Submap& submap = map_.submaps[entry.submap];
-    entry.log_metres = one.log_metres - math::log(map_.submap_pose(submap).s);
-    entry.information = one.information;
+    entry.world = measure(entry).of_unit(-math::log(map_.submap_pose(submap).s));
     entry.weight = 0.0;
   }
   const int32_t count = gather(segment);
   int32_t place = count;
   for (int32_t k = distances_.size() - 1; k >= 0; --k) {
     Entry& entry = distances_[k];
-    if (!belongs(entry, segment) || !entry.long_enough) continue;
+    if (!belongs(entry, segment) || !entry.world.known()) continue;
     --place;
     entry.weight = around(place, count).weight(values_[place]);
   }
@@ -149,9 +144,9 @@ double DistanceBook::doubt(int32_t segment) const {
   ScaleEvidence weighted;
   for (const Entry& entry : distances_) {
     // One whose window has just left is closed by the next settle().
-    if (!is_open(entry.submap) || !belongs(entry, segment) || !entry.long_enough) continue;
-    all = fuse(all, {entry.log_metres, entry.information});
-    weighted = fuse(weighted, {entry.log_metres, entry.information * entry.weight});
+    if (!is_open(entry.submap) || !belongs(entry, segment) || !entry.world.known()) continue;
+    all = fuse(all, entry.world);
+    weighted = fuse(weighted, {entry.world.log_metres, entry.world.information * entry.weight});
   }
   if (!weighted.known()) return 0.0;
   const double moved = std::abs(all.log_metres - weighted.log_metres);
@@ -180,9 +175,7 @@ void DistanceBook::close(int32_t submap) {
       continue;
     }
     ++(entry.weight > 0.0 ? counts_.taken : counts_.refused);
-    if (kept && entry.long_enough) {
-      remember(map_.submaps[submap].segment, {entry.log_metres, entry.information});
-    }
+    if (kept && entry.world.known()) remember(map_.submaps[submap].segment, entry.world);
     erase(k);
   }
 }

@@ -67,10 +67,8 @@ class DistanceBook {
 
   struct Entry {
     Distance distance;
-    int32_t submap = -1;      // whose unit it is measured in, -1: not yet
-    double log_metres = 0.0;  // in the world's unit, as last judged: the views leave first
-    double information = 0.0;
-    bool long_enough = false;
+    int32_t submap = -1;  // whose unit it is measured in, -1: not yet
+    ScaleEvidence world;  // as last judged: its views leave first; not known: too short to tell
     double weight = 0.0;  // how far it agrees with those around it
   };
   /// Metres in the world's unit, of a distance that is closed.

@@ -111,10 +111,7 @@ void DistanceBook::visit_entry(Archive* archive, Entry* entry) {
   visit_positive(archive, &distance.metres);
   visit_positive(archive, &distance.sigma);
   archive->index(&entry->submap, -1, kMostCount);
-  archive->finite(&entry->log_metres);
-  archive->finite(&entry->information);
-  archive->expect(entry->information >= 0.0);
-  archive->flag(&entry->long_enough);
+  visit_evidence(archive, &entry->world);
   archive->finite(&entry->weight);
   archive->expect(entry->weight >= 0.0 && entry->weight <= 1.0);
   if (!archive->loading() || !archive->ok() || !is_open(entry->submap)) return;

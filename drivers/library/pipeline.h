@@ -19,10 +19,10 @@
  *  Callbacks are called on the pipeline's thread, one at a time, in the order of what they tell.
  *  Tracking waits for them: they should hand on and return. Pointers are valid during the call.
  *  They may call unisim_pipeline_ask_stop(), _add_odometry() and _add_distance() and nothing else
- * of this header.
+ *  of this header.
  *
  *  Lengths are in the map's own unit: one camera does not see metres. Odometry, known distances,
- * the camera's height over the ground or a predictor that knows metres say how long that is:
+ *  the camera's height over the ground or a predictor that knows metres say how long that is:
  *  metres_per_unit beside the poses, from then on. */
 #ifndef UNISIM_DRIVERS_LIBRARY_PIPELINE_H
 #define UNISIM_DRIVERS_LIBRARY_PIPELINE_H

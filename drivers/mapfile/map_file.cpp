@@ -3,11 +3,11 @@
 #include "drivers/mapfile/map_file.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 #include "drivers/common/archive.hpp"
 #include "drivers/common/has_maps.hpp"
+#include "drivers/mapfile/byte_stream.hpp"
 
 namespace unisim::mapfile {
 namespace {
@@ -17,27 +17,6 @@ constexpr const char* kSession = "session";
 constexpr const char* kPredictor = "predictor";
 constexpr const char* kLeft = "left";
 constexpr int32_t kMostText = 4096;
-
-int32_t append(void* context, const void* bytes, size_t size) {
-  const auto* from = static_cast<const uint8_t*>(bytes);
-  auto* to = static_cast<Bytes*>(context);
-  to->insert(to->end(), from, from + size);
-  return 1;
-}
-
-/// Gives out bytes from the front.
-struct Source {
-  const Bytes& bytes;
-  size_t at = 0;
-};
-
-int32_t take(void* context, void* bytes, size_t size) {
-  auto* from = static_cast<Source*>(context);
-  if (size > from->bytes.size() - from->at) return 0;
-  std::memcpy(bytes, from->bytes.data() + from->at, size);
-  from->at += size;
-  return 1;
-}
 
 void archive_text(drivers::Archive* io, std::string* text) {
   auto size = static_cast<int32_t>(std::min<size_t>(text->size(), kMostText));
@@ -93,16 +72,16 @@ void save_map(const std::string& path, About about, const unisim_session* sessio
   about.predictor = predictor->name;
   about.keyframes = keyframes_of(session);
   Bytes of_about;
-  drivers::Archive io(append, &of_about);
+  drivers::Archive io(append_bytes, &of_about);
   archive_about(&io, &about);
   Bytes of_session;
-  const unisim_status status = unisim_save_map(session, append, &of_session);
+  const unisim_status status = unisim_save_map(session, append_bytes, &of_session);
   if (status != UNISIM_OK) {
     throw Error(Error::Kind::kInput,
                 path + ": part session cannot be saved: " + unisim_status_string(status));
   }
   Bytes of_predictor;
-  if (predictor->save_map(predictor, append, &of_predictor) != UNISIM_PREDICTION_OK) {
+  if (predictor->save_map(predictor, append_bytes, &of_predictor) != UNISIM_PREDICTION_OK) {
     throw Error(Error::Kind::kInput,
                 path + ": part predictor cannot be saved: " + predictor->message(predictor));
   }
@@ -114,9 +93,9 @@ void save_map(const std::string& path, About about, const unisim_session* sessio
 }
 
 MapFile::MapFile(const std::string& path) : path_(path), sections_(read_sections(path)) {
-  Source source{part(kAbout)};
+  ByteSource source{part(kAbout)};
   try {
-    drivers::Archive io(take, &source);
+    drivers::Archive io(take_bytes, &source);
     archive_about(&io, &about_);
   } catch (const drivers::ArchiveError& error) {
     fail(error.what());
@@ -145,8 +124,8 @@ Bytes MapFile::left() const {
 }
 
 int32_t MapFile::load_session(unisim_session* session) const {
-  Source source{part(kSession)};
-  const unisim_status status = unisim_load_map(session, take, &source);
+  ByteSource source{part(kSession)};
+  const unisim_status status = unisim_load_map(session, take_bytes, &source);
   if (status != UNISIM_OK) fail("part session: " + load_problem(session, status));
   if (source.at != source.bytes.size()) fail("part session: there is more in it than a map");
   return keyframes_of(session);
@@ -157,9 +136,9 @@ int32_t MapFile::load_predictor(unisim_predictor* predictor) const {
     fail("is a map of the " + about_.predictor + " predictor, not of the " + predictor->name +
          " predictor");
   }
-  Source source{part(kPredictor)};
+  ByteSource source{part(kPredictor)};
   int32_t next = -1;
-  if (predictor->load_map(predictor, take, &source, &next) != UNISIM_PREDICTION_OK) {
+  if (predictor->load_map(predictor, take_bytes, &source, &next) != UNISIM_PREDICTION_OK) {
     fail(std::string("part predictor: ") + predictor->message(predictor));
   }
   if (source.at != source.bytes.size()) fail("part predictor: there is more in it than a map");

@@ -22,6 +22,8 @@ constexpr size_t kMostColumns = 8;
                    "; lines are \"time path\", \"time x y [z]\" or TUM poses");
 }
 
+double seconds(int64_t time_ns) { return 1e-9 * static_cast<double>(time_ns); }
+
 std::vector<double> numbers_of(const std::string& path, const sequence::TextLine& line) {
   std::vector<double> numbers;
   for (const std::string_view field : sequence::split_fields(line.text, true)) {
@@ -72,15 +74,14 @@ Odometry Odometry::read(const std::string& path) {
 }
 
 void Odometry::add(const OdometryStep& step) {
-  const auto entry_at = [](int64_t time_ns) { return 1e-9 * static_cast<double>(time_ns); };
-  const double from_s = entry_at(step.from_ns);
+  const double from_s = seconds(step.from_ns);
   Entry last = entries_.empty() ? Entry() : entries_.back();
   if (entries_.empty() || from_s > last.time_s) {
     last.time_s = from_s;
     ++last.travelled.stretch;
     entries_.push_back(last);
   }
-  last.time_s = entry_at(step.to_ns);
+  last.time_s = seconds(step.to_ns);
   last.travelled.path += step.metres;
   last.travelled.sigma += step.sigma * step.metres;
   entries_.push_back(last);
@@ -88,11 +89,11 @@ void Odometry::add(const OdometryStep& step) {
 }
 
 bool Odometry::ends_before(int64_t timestamp_ns) const {
-  return entries_.empty() || entries_.back().time_s < 1e-9 * static_cast<double>(timestamp_ns);
+  return entries_.empty() || entries_.back().time_s < seconds(timestamp_ns);
 }
 
 bool Odometry::at(int64_t timestamp_ns, Travelled* travelled) const {
-  const double time_s = 1e-9 * static_cast<double>(timestamp_ns);
+  const double time_s = seconds(timestamp_ns);
   const auto after = std::lower_bound(entries_.begin(), entries_.end(), time_s,
                                       [](const Entry& e, double t) { return e.time_s < t; });
   if (after == entries_.end()) return false;

@@ -3,37 +3,16 @@
 #include "drivers/pipeline/retired_log.hpp"
 
 #include <cmath>
-#include <cstring>
 #include <set>
 
 #include "drivers/common/archive.hpp"
+#include "drivers/mapfile/byte_stream.hpp"
 
 namespace unisim::pipeline {
 namespace {
 
 constexpr int32_t kMostSubmap = 1 << 30;
 constexpr int32_t kMostConfidence = 3;
-
-int32_t append(void* context, const void* bytes, size_t size) {
-  const auto* from = static_cast<const uint8_t*>(bytes);
-  auto* to = static_cast<mapfile::Bytes*>(context);
-  to->insert(to->end(), from, from + size);
-  return 1;
-}
-
-/// Gives out bytes from the front.
-struct Rest {
-  const mapfile::Bytes& bytes;
-  size_t at = 0;
-};
-
-int32_t take(void* context, void* bytes, size_t size) {
-  auto* from = static_cast<Rest*>(context);
-  if (size > from->bytes.size() - from->at) return 0;
-  std::memcpy(bytes, from->bytes.data() + from->at, size);
-  from->at += size;
-  return 1;
-}
 
 void archive(drivers::Archive* io, int32_t keyframes, unisim_retired* one) {
   io->number(one->kind, UNISIM_RETIRED_KEYFRAME, UNISIM_RETIRED_SUBMAP);
@@ -64,8 +43,8 @@ void check_order(const drivers::Archive& io, const unisim_retired& one, std::set
 }
 
 std::vector<unisim_retired> read(const mapfile::Bytes& bytes, int32_t keyframes) {
-  Rest rest{bytes};
-  drivers::Archive io(take, &rest);
+  mapfile::ByteSource rest{bytes};
+  drivers::Archive io(mapfile::take_bytes, &rest);
   io.part("part left");
   std::vector<unisim_retired> all;
   std::set<int32_t> left;
@@ -87,7 +66,7 @@ void RetiredLog::on_retired(const unisim_retired& retired, const unisim_pose* /*
 
 mapfile::Bytes RetiredLog::bytes() const {
   mapfile::Bytes bytes;
-  drivers::Archive io(append, &bytes);
+  drivers::Archive io(mapfile::append_bytes, &bytes);
   for (int64_t k = 0; k < log_.size(); ++k) {
     unisim_retired one = log_.get(k);
     archive(&io, 0, &one);

@@ -79,9 +79,7 @@ double BundleProblem::reprojection_error_px(const BundlePoint& point, int i) con
   if (!model.project_undistorted(camera(seen.camera).pose.apply(point.position), &projected)) {
     return std::numeric_limits<double>::infinity();
   }
-  return (projected -
-          model.undistort(Eigen::Vector2d(seen.u, seen.v) - intrinsics.readout_s * seen.sway))
-      .norm();
+  return (projected - model.undistort(seen.still(intrinsics.readout_s))).norm();
 }
 
 }  // namespace unisim::geometric

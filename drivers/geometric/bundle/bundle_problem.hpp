@@ -39,9 +39,10 @@ struct BundleObservation {
   double v = 0.0;
   double weight =
       1.0;  ///< inverse standard deviation relative to the others (1: ordinary, 0: left out)
-  /// Pixels it moves for each second of readout; (u, v) - readout * sway is what the model
-  /// explains.
+  /// Pixels it moves for each second of readout.
   Eigen::Vector2d sway = Eigen::Vector2d::Zero();
+  /// What the model explains.
+  Eigen::Vector2d still(double readout_s) const { return Eigen::Vector2d(u, v) - readout_s * sway; }
 };
 
 /// Shared intrinsics with independent Gaussian priors; a sigma <= 0 means no prior.

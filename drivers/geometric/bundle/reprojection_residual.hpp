@@ -36,8 +36,9 @@ struct ReprojectionResidual {
 inline Eigen::Vector2d reprojection_value(const ResidualIntrinsics& in, const Eigen::Vector3d& y,
                                           const BundleObservation& seen) {
   const double w = seen.weight * in.inverse_scale;
-  const double dx = seen.u - in.readout * seen.sway.x() - in.cx;
-  const double dy = seen.v - in.readout * seen.sway.y() - in.cy;
+  const Eigen::Vector2d still = seen.still(in.readout);
+  const double dx = still.x() - in.cx;
+  const double dy = still.y() - in.cy;
   const double stretch = 1.0 + in.k1 * (dx * dx + dy * dy) * in.inverse_focal2;
   const double scale = in.focal / y.z();
   return Eigen::Vector2d(w * (scale * y.x() - dx * stretch), w * (scale * y.y() - dy * stretch));
@@ -57,8 +58,9 @@ inline void reprojection_jacobian(const ResidualIntrinsics& in, const Eigen::Mat
   out->camera1 << 0.0, g, -g * my, -wf * (1.0 + my * my), wf * mx * my, wf * mx;
   out->point0 = g * (R.row(0) - mx * R.row(2)).transpose();
   out->point1 = g * (R.row(1) - my * R.row(2)).transpose();
-  const double dx = seen.u - in.readout * seen.sway.x() - in.cx;
-  const double dy = seen.v - in.readout * seen.sway.y() - in.cy;
+  const Eigen::Vector2d still = seen.still(in.readout);
+  const double dx = still.x() - in.cx;
+  const double dy = still.y() - in.cy;
   const double r2 = (dx * dx + dy * dy) * in.inverse_focal2;
   const double w = factor * in.inverse_scale;
   const double bend = 2.0 * in.k1 * r2;

@@ -39,9 +39,8 @@ void KeyframePose::collect_tracks(const State& state) {
     const Landmark& mark = state.map.landmark(slot);
     if (mark.state != LandmarkState::kPlaced || state.map.support(slot) < 2) continue;
     const cv::Point2f& at = state.tracks.point[i];
-    const cv::Point2f sway = sway_of(state, at, state.tracks.velocity[i]);
-    const double readout = state.intrinsics.readout_s;
-    const Eigen::Vector2d still(at.x - readout * sway.x, at.y - readout * sway.y);
+    const Eigen::Vector2d still =
+        still_pixel(at, sway_of(state, at, state.tracks.velocity[i]), state.intrinsics.readout_s);
     observations_.push_back(
         {mark.position, state.intrinsics.camera.undistort(still), mark.soft ? kSoftWeight : 1.0});
   }

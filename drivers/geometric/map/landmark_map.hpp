@@ -26,6 +26,13 @@ struct ObservationRef {
   bool valid() const { return keyframe >= 0; }
 };
 
+/// Where a pixel would have been seen, were all rows read at the time of the middle one.
+/// @param sway see map/rolling_shutter.hpp
+inline Eigen::Vector2d still_pixel(const cv::Point2f& at, const cv::Point2f& sway,
+                                   double readout_s) {
+  return {at.x - readout_s * sway.x, at.y - readout_s * sway.y};
+}
+
 /// Where a landmark was seen in a keyframe. Observations of a landmark form a list in time order.
 struct Observation {
   int32_t landmark = -1;  ///< -1: the landmark is no longer in the map
@@ -35,10 +42,7 @@ struct Observation {
   cv::Point2f sway;  ///< see map/rolling_shutter.hpp
   ObservationRef next;
   Eigen::Vector2d pixel() const { return {x, y}; }
-  /// Where it would have been seen, were all rows read at the time of the middle one.
-  Eigen::Vector2d still(double readout_s) const {
-    return {x - readout_s * sway.x, y - readout_s * sway.y};
-  }
+  Eigen::Vector2d still(double readout_s) const { return still_pixel({x, y}, sway, readout_s); }
 };
 
 struct Keyframe {

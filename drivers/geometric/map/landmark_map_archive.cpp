@@ -137,7 +137,7 @@ void LandmarkMap::load_observation(drivers::Archive* io) {
   const Landmark& mark = landmark(seen.landmark);
   io->require(mark.state == LandmarkState::kPlaced, "one saw a landmark that is not there");
   io->require(mark.last.keyframe != end_id_ - 1, "one saw a landmark twice");
-  static_cast<void>(observe(seen.landmark, {seen.x, seen.y}, {}));
+  static_cast<void>(observe(seen.landmark, {seen.x, seen.y}));
   observation(mark.last).outlier = seen.outlier;
 }
 

@@ -55,16 +55,15 @@ void MapAdjustment::collect_landmarks(const State& state, const int32_t* ids, si
 
 void MapAdjustment::add_cameras(const State& state, const int32_t* ids, size_t count) {
   std::fill(camera_of_.begin(), camera_of_.end(), kNoCamera);
-  const auto place = [&](int32_t keyframe) { return state.map.slot_of(keyframe); };
-  for (size_t k = 0; k < count; ++k) camera_of_[place(ids[k])] = kFreeCamera;
+  for (size_t k = 0; k < count; ++k) camera_of_[state.map.slot_of(ids[k])] = kFreeCamera;
   for (const int32_t slot : wanted_) {
     const ObservationRef anchor = state.map.anchor(slot);
-    if (anchor.valid() && camera_of_[place(anchor.keyframe)] == kNoCamera) {
-      camera_of_[place(anchor.keyframe)] = kFixedCamera;
-    }
+    if (!anchor.valid()) continue;
+    int32_t& camera = camera_of_[state.map.slot_of(anchor.keyframe)];
+    if (camera == kNoCamera) camera = kFixedCamera;
   }
   for (const int32_t id : state.map.ids()) {
-    int32_t& camera = camera_of_[place(id)];
+    int32_t& camera = camera_of_[state.map.slot_of(id)];
     if (camera == kNoCamera) continue;
     camera = problem_.add_camera(state.map.keyframe(id).pose, camera == kFixedCamera);
     if (camera >= 0) keyframes_.push_back(id);

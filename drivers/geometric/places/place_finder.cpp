@@ -77,7 +77,7 @@ bool PlaceFinder::find(const State& state, const DescriptorStore& store, const P
     } else {
       good = verify(state, patches, current, out, &report);
     }
-    if (log != nullptr) log->add(report);
+    log->add(report);
     if (good) return true;
   }
   return false;

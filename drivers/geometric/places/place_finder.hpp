@@ -41,7 +41,7 @@ class PlaceFinder {
     int32_t tries;  ///< candidates
   };
   /// Looks for the keyframe seen last in the map.
-  /// @param log gets what was tried; may be NULL
+  /// @param log gets what was tried
   bool find(const State& state, const DescriptorStore& store, const PatchStore& patches,
             const PreparedImage& current, const Question& question, PlaceFound* out,
             drivers::PlaceReports* log);
