@@ -234,7 +234,8 @@ struct unisim_predictor {
   int (*multi_view)(unisim_predictor* predictor, const int32_t* ids, int32_t count,
                     unisim_window_prediction* out);
 
-  /** Next window measured anew since the last call; optional. Ask until it says PENDING. */
+  /** Next window measured anew since the last call; optional. Ask until it says PENDING. Asked
+   * after each keyframe, when its pose has gone out: what can wait until then may be done here. */
   int (*next_revision)(unisim_predictor* predictor, unisim_window_revision* out);
 
   /** Next wide window: keyframes spread over all that the predictor holds, measured together after

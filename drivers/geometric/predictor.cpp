@@ -149,6 +149,7 @@ int multi_view(unisim_predictor* predictor, const int32_t* ids, int32_t count,
 int next_revision(unisim_predictor* predictor, unisim_window_revision* out) {
   return guarded(predictor, [&](GeometricPredictor* me) {
     if (!me->mapper) return UNISIM_PREDICTION_PENDING;
+    me->mapper->keep_place();
     return me->predictions->revision(*me->mapper, out);
   });
 }

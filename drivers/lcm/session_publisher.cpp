@@ -69,14 +69,15 @@ void SessionPublisher::on_frame(const unisim_frame& frame) {
 /// from one to the other.
 void SessionPublisher::on_live_pose(const pipeline::LivePose& pose) {
   newest_ns_ = pose.timestamp_ns;
-  unisim_pose keyframe{};
-  const bool is_keyframe = pose.keyframe_id >= 0 && read_pose(pose.keyframe_id, &keyframe);
   const bool first = live_.struct_size == 0;
-  if (first || (is_keyframe && keyframe.segment != live_.segment)) metre_ = pose.metre;
+  if (first || (pose.keyframe_id >= 0 && pose.segment != live_.segment)) metre_ = pose.metre;
   say_unit(metre_);
+  if (pose.late) return;
   const unisim_sim3 T_world_cam = in_metres(pose.T_world_cam, metre_);
   unisim_lcm_publish_pose(publisher_, pose.timestamp_ns, &T_world_cam);
-  if (!is_keyframe) return;
+}
+
+void SessionPublisher::on_keyframe_pose(const unisim_pose& keyframe) {
   live_ = keyframe;
   live_.T_world_kf = in_metres(keyframe.T_world_kf, metre_);
   unisim_lcm_publish_keyframe(publisher_, &live_, revision(), nullptr);

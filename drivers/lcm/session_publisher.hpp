@@ -43,6 +43,7 @@ class SessionPublisher : public pipeline::Listener {
   void on_keyframe(int32_t id, const unisim_frame& frame) override;
   void on_frame(const unisim_frame& frame) override;
   void on_live_pose(const pipeline::LivePose& pose) override;
+  void on_keyframe_pose(const unisim_pose& keyframe) override;
   void on_window(int32_t submap_id, const unisim_window_prediction& window) override;
   void on_optimized(const unisim_report& report) override;
   void on_retired(const unisim_retired& retired, const unisim_pose* pose) override;

@@ -44,7 +44,9 @@ extern "C" {
 #define UNISIM_PIPELINE_STOPPED 2  /**< it was asked to; the map is complete up to there */
 #define UNISIM_PIPELINE_FAILED 3   /**< unisim_pipeline_message() says what, where, what to do */
 
-/** A pose as it is known first, before any correction. */
+/** A pose as it is known first, before any correction. With every_frame that of a keyframe's frame
+ *  comes before the map has taken the keyframe. What is known only after newer frames had come, as
+ *  of those before the start, is told too: see timestamp_ns. */
 typedef struct unisim_live_pose {
   uint32_t struct_size;    /**< sizeof this struct in the library */
   int32_t keyframe_id;     /**< -1: a frame between keyframes */

@@ -75,6 +75,7 @@ struct unisim_pipeline : Listener {
   int end();
 
   void on_live_pose(const LivePose& pose) override;
+  void on_keyframe_pose(const unisim_pose& keyframe) override;
   void on_optimized(const unisim_report& report) override;
   void on_progress(const Progress& progress) override;
   void on_message(const std::string& line) override;
@@ -230,17 +231,15 @@ bool unisim_pipeline::read_pose(int32_t keyframe, unisim_pose* pose) const {
 
 void unisim_pipeline::on_live_pose(const LivePose& pose) {
   unisim_pose keyframe{};
-  if (pose.keyframe_id >= 0 && read_pose(pose.keyframe_id, &keyframe)) {
-    newest = keyframe;
-    state = keyframe.state;
-  }
+  const bool in_map = pose.keyframe_id >= 0 && read_pose(pose.keyframe_id, &keyframe);
+  if (in_map && keyframe.confidence > 0) state = keyframe.state;
   unisim_live_pose told{};
   told.struct_size = sizeof told;
   told.keyframe_id = pose.keyframe_id;
   told.timestamp_ns = pose.timestamp_ns;
   told.T_world_cam = pose.T_world_cam;
   told.state = state;
-  told.segment = newest.struct_size > 0 ? newest.segment : -1;
+  told.segment = pose.segment;
   told.reason = status.reason;
   told.metres_per_unit = pose.metre.per_unit;
   told.scale_sigma = pose.metre.sigma;
@@ -249,9 +248,12 @@ void unisim_pipeline::on_live_pose(const LivePose& pose) {
     live = told;
   }
   if (config.on_pose != nullptr) config.on_pose(&told, config.user);
-  if (keyframe.struct_size > 0 && config.on_keyframe != nullptr) {
-    config.on_keyframe(&keyframe, config.user);
-  }
+}
+
+void unisim_pipeline::on_keyframe_pose(const unisim_pose& keyframe) {
+  newest = keyframe;
+  state = keyframe.state;
+  if (config.on_keyframe != nullptr) config.on_keyframe(&keyframe, config.user);
 }
 
 /// The jump from where listeners have the newest keyframe to where it is now.
@@ -365,7 +367,8 @@ int unisim_pipeline_add_odometry(unisim_pipeline* pipeline, const unisim_odometr
   const double common =
       step->common_sigma > 0.0 ? step->common_sigma : unisim::pipeline::kPathCommonSigma;
   const double sigma = step->sigma > 0.0 ? step->sigma : kUsualSigma;
-  const bool taken = pipeline->inbox.add({step->from_ns, step->to_ns, step->metres, sigma}, common);
+  const bool taken = pipeline->inbox.add(
+      unisim::pipeline::OdometryStep{step->from_ns, step->to_ns, step->metres, sigma}, common);
   return taken ? 1 : 0;
 }
 

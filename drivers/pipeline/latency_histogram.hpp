@@ -51,13 +51,14 @@ struct StageTimes {
   LatencyHistogram keyframe;     ///< predictor takes one keyframe
   LatencyHistogram two_view;     ///< predictor answers one pair
   LatencyHistogram multi_view;   ///< predictor answers one window
+  LatencyHistogram revision;     ///< predictor says what it has measured anew, once a keyframe
   LatencyHistogram depth_ratio;  ///< session takes a pair or a window: mostly its depth ratios
   LatencyHistogram descriptor;   ///< predictor describes one keyframe; none where it closes loops
   LatencyHistogram loop;         ///< one search for loops: predictions of old keyframes
   LatencyHistogram graph;        ///< session takes a keyframe, a revision or a refusal
   LatencyHistogram read;         ///< session says what it wants, where it stands, a pose
   LatencyHistogram optimize;     ///< one unisim_optimize()
-  LatencyHistogram track_total;  ///< keyframe: image at hand to live pose given out
+  LatencyHistogram track_total;  ///< keyframe: image at hand to its pose in the map
 };
 
 }  // namespace unisim::pipeline

@@ -37,8 +37,11 @@ struct Progress {
 struct LivePose {
   int64_t timestamp_ns;
   unisim_sim3 T_world_cam;
-  int32_t keyframe_id;  ///< -1: a frame between keyframes
-  Metre metre = {};     ///< of its segment
+  int32_t keyframe_id;   ///< -1: a frame between keyframes
+  int32_t segment = -1;  ///< -1: not known
+  Metre metre = {};      ///< of its segment
+  bool late = false;     ///< in a live or realtime run: known only after newer frames had come, as
+                         ///< those before the start are; nothing to act by
 };
 
 /// What came of a frame that was looked for in the map.
@@ -71,8 +74,12 @@ class Listener {
   /// `frame` became keyframe `id`. frame.image.data is NULL when images are not decoded.
   virtual void on_keyframe(int32_t /*id*/, const unisim_frame& /*frame*/) {}
 
-  /// A pose is known for the first time; in order of time.
+  /// A pose is known for the first time; in order of time. One of a keyframe may be that of its
+  /// frame, given out before the map has taken the keyframe.
   virtual void on_live_pose(const LivePose& /*pose*/) {}
+
+  /// A keyframe has its first pose in the map; after on_live_pose() of its frame.
+  virtual void on_keyframe_pose(const unisim_pose& /*keyframe*/) {}
 
   /// A frame has been tracked, whatever came of it; what takes time belongs here, after its pose.
   virtual void on_frame(const unisim_frame& /*frame*/) {}

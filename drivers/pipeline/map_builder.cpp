@@ -34,21 +34,25 @@ void MapBuilder::go_on_after(int32_t keyframes) {
   wide_windows_.note_gap();
 }
 
-Step MapBuilder::add_keyframe(const unisim_frame& frame, int32_t* id) {
+Step MapBuilder::add_to_session(const unisim_frame& frame, int32_t* id) {
   const unisim_status status = parts_.session->add_keyframe(frame.timestamp_ns, id);
   if (status != UNISIM_OK) return session_failed("unisim_add_keyframe", status);
   newest_ = *id;
   image_width_ = frame.image.width;
   image_height_ = frame.image.height;
   distances_.note_keyframe(*id);
+  return Step::kOk;
+}
+
+Step MapBuilder::add_to_predictor(const unisim_frame& frame, int32_t id) {
   {
     const ScopedLatency timer(parts_.times->keyframe);
-    const int answer = parts_.predictor->keyframe(parts_.predictor, &frame, *id);
+    const int answer = parts_.predictor->keyframe(parts_.predictor, &frame, id);
     if (answer == UNISIM_PREDICTION_FAILED) return Step::kPredictorFailed;
   }
   if (loops_ == nullptr) return Step::kOk;
   const ScopedLatency timer(parts_.times->descriptor);
-  return loops_->describe(*id, parts_.messages) ? Step::kOk : Step::kPredictorFailed;
+  return loops_->describe(id, parts_.messages) ? Step::kOk : Step::kPredictorFailed;
 }
 
 bool MapBuilder::next_request(uint32_t kind, unisim_request* request) {
@@ -239,7 +243,11 @@ Step MapBuilder::serve_revisions() {
   bool changed = false;
   for (;;) {
     unisim_window_revision revision{};
-    const int answer = parts_.predictor->next_revision(parts_.predictor, &revision);
+    int answer = UNISIM_PREDICTION_OK;
+    {
+      const ScopedLatency timer(parts_.times->revision);
+      answer = parts_.predictor->next_revision(parts_.predictor, &revision);
+    }
     if (answer == UNISIM_PREDICTION_FAILED) return back_failed(window_message());
     if (answer == UNISIM_PREDICTION_PENDING) break;
     if (answer != UNISIM_PREDICTION_OK) continue;

@@ -66,8 +66,9 @@ class MapBuilder {
   /// Session and predictor have a map of so many keyframes: goes on after them.
   void go_on_after(int32_t keyframes);
 
-  /// New keyframe in session and predictor, under one number.
-  Step add_keyframe(const unisim_frame& frame, int32_t* id);
+  /// New keyframe in the session, then under its number in the predictor.
+  Step add_to_session(const unisim_frame& frame, int32_t* id);
+  Step add_to_predictor(const unisim_frame& frame, int32_t id);
 
   /// Serves pair requests until there is none or one is not known yet.
   Step serve_pairs();

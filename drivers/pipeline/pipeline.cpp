@@ -56,6 +56,8 @@ class Pipeline::Impl {
   void pass_over(const FrameReader::Item& item);
   bool take_keyframe(const unisim_frame& frame);
   void pose_between(const unisim_frame& frame);
+  bool pose_of_frame(unisim_frame_pose* between, unisim_pose* held);
+  void give_out_early(const unisim_frame& frame, int32_t id);
   void give_out_live();
   void give_out(const LivePose& pose);
   void finish();
@@ -81,7 +83,9 @@ class Pipeline::Impl {
   std::optional<RetiredLog> retired_;
   unisim_session_info before_{};
   std::optional<Localiser> localiser_;  // with Options::localise
-  int32_t next_live_ = 0;               // first keyframe whose live pose is not given out yet
+  int32_t next_live_ = 0;               // first keyframe whose pose is not told yet
+  int32_t early_ = -1;                  // keyframe whose frame's pose was given out before
+  bool ending_ = false;
   StartWatch start_;
 };
 
@@ -266,13 +270,15 @@ bool Pipeline::Impl::locate(const FrameReader::Item& item) {
     located.metre = result_.progress.metre = metre(segment);
   }
   for (Listener* listener : listeners_) listener->on_located(located);
-  if (known) give_out({frame.timestamp_ns, located.T_world_cam, -1, located.metre});
+  if (known) give_out({frame.timestamp_ns, located.T_world_cam, -1, segment, located.metre});
   return true;
 }
 
 bool Pipeline::Impl::take_keyframe(const unisim_frame& frame) {
   int32_t id = -1;
-  if (!went_well(builder_->add_keyframe(frame, &id))) return false;
+  if (!went_well(builder_->add_to_session(frame, &id))) return false;
+  if (options_.every_frame) give_out_early(frame, id);
+  if (!went_well(builder_->add_to_predictor(frame, id))) return false;
   ++result_.progress.keyframes;
   result_.image_width = frame.image.width;
   result_.image_height = frame.image.height;
@@ -288,22 +294,42 @@ void Pipeline::Impl::give_out_live() {
     unisim_pose pose{};
     // A held pose (confidence 0) is the old one repeated, not a pose of this keyframe.
     if (session_.get_pose(next_live_, &pose) != UNISIM_OK || pose.confidence == 0) continue;
-    give_out({pose.timestamp_ns, pose.T_world_kf, next_live_, metre(pose.segment)});
+    if (next_live_ != early_) {
+      const bool at_clock = options_.live || options_.realtime;
+      const bool late = ending_ || pose.timestamp_ns != result_.progress.newest_ns;
+      give_out({pose.timestamp_ns, pose.T_world_kf, next_live_, pose.segment, metre(pose.segment),
+                at_clock && late});
+    }
+    for (Listener* listener : listeners_) listener->on_keyframe_pose(pose);
   }
 }
 
-void Pipeline::Impl::pose_between(const unisim_frame& frame) {
-  if (predictor_->frame_pose == nullptr) return;
+/// What a keyframe takes comes after the pose of its frame, which those who act by it wait for.
+void Pipeline::Impl::give_out_early(const unisim_frame& frame, int32_t id) {
   unisim_frame_pose between{};
-  if (predictor_->frame_pose(predictor_, &between) != UNISIM_PREDICTION_OK) return;
-  unisim_pose pose{};
-  const int32_t keyframe = between.keyframe_id;
-  if (session_.get_pose(keyframe, &pose) != UNISIM_OK || pose.confidence == 0) return;
+  unisim_pose held{};
+  if (!pose_of_frame(&between, &held)) return;
+  early_ = id;
+  give_out({frame.timestamp_ns, compose(held.T_world_kf, between.T_kf_frame), id, held.segment,
+            metre(held.segment)});
+}
+
+/// Pose of the frame observed last, and of the keyframe that holds it. @return false: none
+bool Pipeline::Impl::pose_of_frame(unisim_frame_pose* between, unisim_pose* held) {
+  if (predictor_->frame_pose == nullptr) return false;
+  if (predictor_->frame_pose(predictor_, between) != UNISIM_PREDICTION_OK) return false;
+  return session_.get_pose(between->keyframe_id, held) == UNISIM_OK && held->confidence > 0;
+}
+
+void Pipeline::Impl::pose_between(const unisim_frame& frame) {
+  unisim_frame_pose between{};
+  unisim_pose held{};
+  if (!pose_of_frame(&between, &held)) return;
   for (Listener* listener : listeners_) {
-    listener->on_between_pose({frame.timestamp_ns, keyframe, between.T_kf_frame});
+    listener->on_between_pose({frame.timestamp_ns, between.keyframe_id, between.T_kf_frame});
   }
-  give_out(
-      {frame.timestamp_ns, compose(pose.T_world_kf, between.T_kf_frame), -1, metre(pose.segment)});
+  give_out({frame.timestamp_ns, compose(held.T_world_kf, between.T_kf_frame), -1, held.segment,
+            metre(held.segment)});
 }
 
 /// While windows are asked for beside, a predictor cannot be asked how it stands.
@@ -321,6 +347,7 @@ void Pipeline::Impl::give_out(const LivePose& pose) {
 }
 
 void Pipeline::Impl::finish() {
+  ending_ = true;
   const bool usable =
       result_.outcome != Outcome::kPredictorFailed && result_.outcome != Outcome::kSessionFailed;
   const bool lane_left = went_well(builder_->leave_lane(usable));

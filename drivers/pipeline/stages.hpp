@@ -13,12 +13,19 @@ struct Stage {
 
 /// In the order of a frame's way.
 inline constexpr Stage kStages[] = {
-    {"decode", &StageTimes::decode},         {"observe", &StageTimes::observe},
-    {"keyframe", &StageTimes::keyframe},     {"two_view", &StageTimes::two_view},
-    {"multi_view", &StageTimes::multi_view}, {"depth_ratio", &StageTimes::depth_ratio},
-    {"descriptor", &StageTimes::descriptor}, {"loop", &StageTimes::loop},
-    {"graph", &StageTimes::graph},           {"read", &StageTimes::read},
-    {"optimize", &StageTimes::optimize},     {"track_total", &StageTimes::track_total},
+    {"decode", &StageTimes::decode},
+    {"observe", &StageTimes::observe},
+    {"keyframe", &StageTimes::keyframe},
+    {"two_view", &StageTimes::two_view},
+    {"multi_view", &StageTimes::multi_view},
+    {"revision", &StageTimes::revision},
+    {"depth_ratio", &StageTimes::depth_ratio},
+    {"descriptor", &StageTimes::descriptor},
+    {"loop", &StageTimes::loop},
+    {"graph", &StageTimes::graph},
+    {"read", &StageTimes::read},
+    {"optimize", &StageTimes::optimize},
+    {"track_total", &StageTimes::track_total},
 };
 
 }  // namespace unisim::pipeline

@@ -24,6 +24,7 @@ class Recorder : public Listener {
   void on_window(int32_t, const unisim_window_prediction&) override { ++windows; }
   void on_revision(int32_t, const unisim_window_revision&) override { ++revisions; }
   void on_live_pose(const LivePose& pose) override { live.push_back(pose); }
+  void on_keyframe_pose(const unisim_pose& pose) override { posed.push_back(pose); }
   void on_between_pose(const BetweenPose& pose) override { between.push_back(pose); }
   void on_retired(const unisim_retired& one, const unisim_pose*) override {
     retired += one.kind == UNISIM_RETIRED_KEYFRAME ? 1 : 0;
@@ -42,6 +43,7 @@ class Recorder : public Listener {
   int revisions = 0;
   int retired = 0;
   std::vector<LivePose> live;
+  std::vector<unisim_pose> posed;  // keyframes
   std::vector<BetweenPose> between;
   PoseBook book;
 };

@@ -83,6 +83,7 @@ ScriptedPredictor::ScriptedPredictor() {
     return self(p)->observe(f, m);
   };
   t.keyframe = [](unisim_predictor* p, const unisim_frame* f, int32_t id) {
+    if (self(p)->before_keyframe) self(p)->before_keyframe(id);
     const std::lock_guard<std::mutex> lock(self(p)->mutex_);
     const bool in_order = id == static_cast<int32_t>(self(p)->keyframes.size());
     self(p)->keyframes.push_back(f->index);
@@ -176,6 +177,7 @@ int ScriptedPredictor::observe(const unisim_frame* frame, unisim_motion* motion)
 
 int ScriptedPredictor::two_view(int32_t i, int32_t j, unisim_pair_prediction* out) {
   if (static_cast<int32_t>(keyframes.size()) < pending_until) return UNISIM_PREDICTION_PENDING;
+  if (starts_at_end && !finished_) return UNISIM_PREDICTION_PENDING;
   if (rejected_pairs.count(i) != 0) return UNISIM_PREDICTION_REJECTED;
   const double unit = pair_unit(i);
   *out = {};

@@ -63,6 +63,7 @@ class ScriptedPredictor {
   static double window_unit(int32_t first);
 
   int32_t pending_until = 0;         ///< pairs and windows are PENDING before this many keyframes
+  bool starts_at_end = false;        ///< pairs are PENDING before finish()
   std::set<int32_t> rejected_pairs;  ///< first keyframes
   int32_t found_again = -1;          ///< first keyframe of a pair over a gap ...
   int32_t gap = 0;                   ///< ... that begins so many keyframes before
@@ -81,6 +82,7 @@ class ScriptedPredictor {
   int32_t wide_every = 0;      ///< keyframes from one exact wide window to the next; 0: none
   int32_t wide_given = 0;      ///< of them, the newest that was given
   bool revises_early = false;  ///< not at finish(), but as soon as it is asked
+  std::function<void(int32_t)> before_keyframe;  ///< called before a keyframe is taken
   /// Called before a window is answered, with its first keyframe, on whatever thread asks.
   std::function<void(int32_t)> before_window;
   std::string no_start;                ///< what info() says of a run without a start

@@ -13,6 +13,7 @@ int64_t monotonic_ns() {
 }
 
 void PoseAge::on_live_pose(const pipeline::LivePose& pose) {
+  if (pose.late) return;
   const int64_t now = monotonic_ns();
   if (!known_) {
     const int64_t offset = pose.timestamp_ns - now;

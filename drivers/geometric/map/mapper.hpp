@@ -37,6 +37,9 @@ class Mapper {
   TrackMotion motion() { return front_end_.motion(state_.tracks); }
   /// The frame seen last is keyframe `id`. @return true when the whole state has been adjusted anew
   bool add_keyframe(int32_t id);
+  /// What the newest keyframe has to do with places: it takes longer than the pose, and nobody
+  /// waits for it. To be called when the pose has gone out; the next frame does it otherwise.
+  void keep_place();
   /// Pose of the frame seen last.
   FramePose frame_pose();
   /// Adjusts the whole state one last time. @return true when it changed
@@ -86,9 +89,6 @@ class Mapper {
   /// Finds a lost camera in the map; what it sees of it is followed from then on.
   bool relocalise(int32_t id);
   bool waited_long() const;
-  /// What the newest keyframe has to do with places, put off until the next frame: it takes longer
-  /// than the pose, and nobody waits for it. That keyframe's image is still there then.
-  void keep_place();
   Places::Look look(int32_t id) const;
   /// Poses a keyframe that was lost when it was new, after a later one has been found.
   void recover(int32_t id, const CameraPose& near);

@@ -35,14 +35,18 @@ bool ViewListener::read(int32_t keyframe, unisim_pose* pose) const {
 void ViewListener::on_live_pose(const pipeline::LivePose& pose) {
   newest_.keyframe = pose.keyframe_id;
   newest_.T_world_cam = pose.T_world_cam;
+  newest_.segment = pose.segment;
   posed_ns_ = pose.timestamp_ns;
-  unisim_pose keyframe{};
-  if (pose.keyframe_id >= 0 && read(pose.keyframe_id, &keyframe)) {
-    newest_.segment = keyframe.segment;
-    confidence_ = keyframe.confidence;
-    corrected_.add(newest_);
-  }
   live_.add(newest_);
+}
+
+void ViewListener::on_keyframe_pose(const unisim_pose& keyframe) {
+  confidence_ = keyframe.confidence;
+  PathPoint point;
+  point.keyframe = keyframe.keyframe_id;
+  point.segment = keyframe.segment;
+  point.T_world_cam = keyframe.T_world_kf;
+  corrected_.add(point);
 }
 
 void ViewListener::on_window(int32_t submap_id, const unisim_window_prediction& window) {

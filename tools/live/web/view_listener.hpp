@@ -32,6 +32,7 @@ class ViewListener : public pipeline::Listener {
   void attach(const pipeline::Pipeline* pipeline, unisim_predictor* predictor);
 
   void on_live_pose(const pipeline::LivePose& pose) override;
+  void on_keyframe_pose(const unisim_pose& keyframe) override;
   void on_frame(const unisim_frame& frame) override;
   void on_window(int32_t submap_id, const unisim_window_prediction& window) override;
   void on_retired(const unisim_retired& retired, const unisim_pose* pose) override;
