@@ -146,6 +146,15 @@ Url parse_url(const char* url, Direction direction) {
   return out;
 }
 
+void check_channel(const std::string& channel) {
+  if (!channel.empty() && channel.size() <= LCM_MAX_CHANNEL_NAME_LENGTH &&
+      channel.find_first_of("\\^$.[]|()?*+{}") == std::string::npos) {
+    return;
+  }
+  throw LcmError(UNISIM_LCM_BAD_CONFIG,
+                 "channel '" + channel + "': give the name of one channel, at most 63 characters");
+}
+
 LcmPtr open_network(const Url& url) {
   if (url.provider == "udpm") check_route(url);
   if (url.provider == "file") check_writable(url);

@@ -29,6 +29,9 @@ struct Url {
 /// @throws LcmError when liblcm would not understand it, or it makes no sense in this direction
 Url parse_url(const char* url, Direction direction);
 
+/// @throws LcmError unless it is the name of one channel: liblcm takes it for a regular expression
+void check_channel(const std::string& channel);
+
 /// @throws LcmError when there is no route for multicast or liblcm cannot open it
 LcmPtr open_network(const Url& url);
 

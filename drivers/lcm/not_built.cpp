@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
-// What publisher.h and subscriber.h say in a build without LCM.
+// What publisher.h, subscriber.h and odometry_listener.hpp say in a build without LCM.
 #include <cstdio>
 
+#include "drivers/lcm/error.hpp"
+#include "drivers/lcm/odometry_listener.hpp"
 #include "drivers/lcm/publisher.h"
 #include "drivers/lcm/subscriber.h"
 
 namespace {
 
+constexpr const char* kWhy =
+    "built without LCM; install liblcm-dev and liblcm-bin, then configure and build again";
+
 void refuse(int32_t* problem, char* message, size_t capacity) {
   if (problem != nullptr) *problem = UNISIM_LCM_NOT_BUILT;
   if (message == nullptr || capacity == 0) return;
-  std::snprintf(message, capacity,
-                "lcm: built without LCM; install liblcm-dev and liblcm-bin, then configure and "
-                "build again");
+  std::snprintf(message, capacity, "lcm: %s", kWhy);
 }
 
 }  // namespace
@@ -74,3 +77,17 @@ int unisim_lcm_publish_image(unisim_lcm_publisher*, int64_t, const unisim_image*
 int unisim_lcm_next_request(unisim_lcm_publisher*, int32_t*) { return 0; }
 
 void unisim_lcm_publisher_get_counts(const unisim_lcm_publisher*, unisim_lcm_publisher_counts*) {}
+
+namespace unisim::lcm {
+
+class OdometryListener::Impl {};
+
+OdometryListener::OdometryListener(const OdometryListenerConfig&, pipeline::DistanceInbox*) {
+  throw LcmError(UNISIM_LCM_NOT_BUILT, kWhy);
+}
+
+OdometryListener::~OdometryListener() = default;
+
+OdometryCounts OdometryListener::counts() const { return {}; }
+
+}  // namespace unisim::lcm

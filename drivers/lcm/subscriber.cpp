@@ -174,13 +174,7 @@ unisim_source* make(const unisim_lcm_subscriber_config* given) {
   }
   std::string channel = config.channel != nullptr ? config.channel : "";
   if (channel.empty()) channel = "UNISIM_IMAGE";
-  // liblcm takes it for a regular expression.
-  if (channel.size() > LCM_MAX_CHANNEL_NAME_LENGTH ||
-      channel.find_first_of("\\^$.[]|()?*+{}") != std::string::npos) {
-    throw LcmError(UNISIM_LCM_BAD_CONFIG, "channel '" + channel +
-                                              "': give the name of one channel, at most 63 "
-                                              "characters");
-  }
+  check_channel(channel);
   Url url = parse_url(config.url, Direction::kSubscribe);
   std::vector<std::string> notes;
   ask_for_room(&url, &notes);

@@ -39,9 +39,10 @@ const Odometry* DistanceFeeder::odometry() const {
 
 void DistanceFeeder::take_inbox() {
   if (options_.inbox == nullptr) return;
-  options_.inbox->take(&steps_, &distances_, &options_.common_sigma);
-  for (const OdometryStep& step : steps_) live_.add(step);
-  for (const unisim_distance& distance : distances_) pass_on(distance);
+  options_.inbox->take(&taken_, &options_.common_sigma);
+  for (const OdometryStep& step : taken_.steps) live_.add(step);
+  for (const OdometryPosition& position : taken_.positions) live_.add(position);
+  for (const unisim_distance& distance : taken_.distances) pass_on(distance);
 }
 
 void DistanceFeeder::pass_on(const unisim_distance& distance) {

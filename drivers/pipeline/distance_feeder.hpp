@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "drivers/pipeline/distance_inbox.hpp"
 #include "drivers/pipeline/messages.hpp"
@@ -66,8 +65,7 @@ class DistanceFeeder {
   Travelled first_travelled_;
   double map_path_ = 0.0;  // length of the way on the map, its unit
   Odometry live_;          // of the inbox
-  std::vector<OdometryStep> steps_;
-  std::vector<unisim_distance> distances_;
+  DistanceInbox::Content taken_;
 };
 
 }  // namespace unisim::pipeline

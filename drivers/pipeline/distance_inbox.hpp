@@ -20,18 +20,24 @@ class DistanceInbox {
 
   /// @return false: it begins before the last one ended, or there is no room
   bool add(const OdometryStep& step, double common_sigma);
+  /// In place of steps. @return false: it is not later than the last one, or there is no room
+  bool add(const OdometryPosition& position, double common_sigma);
   /// @return false: there is no room
   bool add(const unisim_distance& distance);
 
+  struct Content {
+    std::vector<OdometryStep> steps;
+    std::vector<OdometryPosition> positions;
+    std::vector<unisim_distance> distances;
+  };
+
   /// Takes all out, in order. @param[out] common_sigma largest that was given so far
-  void take(std::vector<OdometryStep>* steps, std::vector<unisim_distance>* distances,
-            double* common_sigma);
+  void take(Content* content, double* common_sigma);
 
  private:
   std::mutex mutex_;
-  std::vector<OdometryStep> steps_;
-  std::vector<unisim_distance> distances_;
-  int64_t end_ns_ = INT64_MIN;  // of the newest step
+  Content content_;
+  int64_t end_ns_ = INT64_MIN;  // of the newest step or position
   double common_sigma_ = 0.0;
 };
 

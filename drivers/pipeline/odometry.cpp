@@ -16,6 +16,7 @@ using sequence::InputError;
 
 constexpr double kLongestGap_s = 1.0;
 constexpr size_t kMostColumns = 8;
+constexpr double kFastest = 100.0;  // metres per second
 
 [[noreturn]] void refuse(const std::string& path, int64_t line, const std::string& why) {
   throw InputError(path + ":" + std::to_string(line) + ": " + why +
@@ -85,6 +86,22 @@ void Odometry::add(const OdometryStep& step) {
   last.travelled.path += step.metres;
   last.travelled.sigma += step.sigma * step.metres;
   entries_.push_back(last);
+  while (entries_.size() > kMostSteps) entries_.pop_front();
+}
+
+void Odometry::add(const OdometryPosition& position) {
+  Entry next;
+  next.time_s = seconds(position.time_ns);
+  next.travelled.position = position.position;
+  has_positions_ = true;
+  if (!entries_.empty()) {
+    const Entry& last = entries_.back();
+    const double step = distance(last.travelled.position.data(), position.position.data());
+    const bool set_back = !(step <= kFastest * (next.time_s - last.time_s));
+    next.travelled.path = last.travelled.path + (set_back ? 0.0 : step);
+    next.travelled.stretch = last.travelled.stretch + (set_back ? 1 : 0);
+  }
+  entries_.push_back(next);
   while (entries_.size() > kMostSteps) entries_.pop_front();
 }
 

@@ -26,11 +26,17 @@ struct OdometryStep {
   double sigma = 0.0;  ///< standard deviation over the path
 };
 
+/// Where the camera was, by an odometer.
+struct OdometryPosition {
+  int64_t time_ns = 0;
+  std::array<double, 3> position{};  ///< metres, in a frame of the odometer's own
+};
+
 /// Entries by time, straight lines between them: read from a file at once, or added while a run
 /// goes, the newest kept.
 class Odometry {
  public:
-  /// Steps that are kept of those added: minutes of most robots.
+  /// Entries that are kept of those added: minutes of most robots.
   static constexpr size_t kMostSteps = 8192;
 
   /// Lines of one kind, times in seconds and growing, # begins a comment:
@@ -42,6 +48,9 @@ class Odometry {
 
   /// A step that begins where the last one ended, or later: then what is between is not known.
   void add(const OdometryStep& step);
+  /// A position, later than those before. What is between two that no vehicle goes between is not
+  /// known: the odometer has been set back.
+  void add(const OdometryPosition& position);
   /// Nothing is known of this time yet: later steps may reach it.
   bool ends_before(int64_t timestamp_ns) const;
 

@@ -118,6 +118,46 @@ TEST_CASE("a run with odometry knows its scale") {
   CHECK(scale.sigma < 0.02);
 }
 
+TEST_CASE("positions that come while the run goes make it metric, however they jitter") {
+  Run run(300);
+  DistanceInbox inbox;
+  run.options.odometry = {nullptr, 0.02, 0.0, &inbox};
+  run.source.before_frame = [&](int64_t frame) {
+    const unisim_sim3 T = true_pose(frame);
+    // The odometer jitters: its path is longer than the way, its chords are not.
+    const double jitter = frame % 2 == 0 ? 0.01 : -0.01;
+    REQUIRE(
+        inbox.add(OdometryPosition{frame * 33333333,
+                                   {kMetre * T.t[0], kMetre * T.t[1] + jitter, kMetre * T.t[2]}},
+                  0.0));
+  };
+  REQUIRE(run.go().outcome == Outcome::kFinished);
+  const unisim_scale scale = scale_of(run);
+  const double expected = kMetre / ScriptedPredictor::pair_unit(0);
+  CHECK(std::abs(std::log(scale.metres_per_unit / expected)) < 0.01);
+  CHECK(scale.taken > 8);
+}
+
+TEST_CASE("positions come in the order of time, and an odometer that is set back begins anew") {
+  DistanceInbox inbox;
+  CHECK(inbox.add(OdometryPosition{1000000000, {5, 0, 0}}, 0.0));
+  CHECK_FALSE(inbox.add(OdometryPosition{1000000000, {6, 0, 0}}, 0.0));
+  Odometry odometry;
+  odometry.add(OdometryPosition{1000000000, {500, 0, 0}});
+  odometry.add(OdometryPosition{1100000000, {501, 0, 0}});
+  odometry.add(OdometryPosition{1200000000, {0, 0, 0}});
+  odometry.add(OdometryPosition{1300000000, {1, 0, 0}});
+  Travelled before;
+  Travelled after;
+  Travelled between;
+  REQUIRE(odometry.at(1050000000, &before));
+  REQUIRE(odometry.at(1250000000, &after));
+  CHECK(before.position[0] == Approx(500.5));
+  CHECK(after.position[0] == Approx(0.5));
+  CHECK(before.stretch != after.stretch);
+  CHECK_FALSE(odometry.at(1150000000, &between));
+}
+
 TEST_CASE("without odometry no distance is made") {
   Run run(300);
   REQUIRE(run.go().outcome == Outcome::kFinished);

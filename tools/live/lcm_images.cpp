@@ -6,15 +6,16 @@
 #include "tools/common/failure.hpp"
 
 namespace unisim::live {
-namespace {
 
-/// "lcm://" is LCM's own udpm at the usual address, "lcm://ADDRESS:PORT?..." at another.
 std::string udpm_url(const std::string& device) {
   const std::string rest = device.substr(std::string(kLcmScheme).size());
   return rest.empty() ? "" : "udpm://" + rest;
 }
 
-}  // namespace
+int exit_code_of_lcm(int32_t problem) {
+  const bool usage = problem == UNISIM_LCM_BAD_CONFIG || problem == UNISIM_LCM_NOT_BUILT;
+  return usage ? tools::kExitUsage : tools::kExitLimit;
+}
 
 replay::Input open_lcm_images(const Options& options) {
   const std::string url = udpm_url(options.device);
@@ -27,8 +28,7 @@ replay::Input open_lcm_images(const Options& options) {
   replay::Input input;
   input.source.reset(unisim_lcm_subscribe(&config, &problem, message, sizeof message));
   if (input.source == nullptr) {
-    const bool usage = problem == UNISIM_LCM_BAD_CONFIG || problem == UNISIM_LCM_NOT_BUILT;
-    throw tools::Failure(usage ? tools::kExitUsage : tools::kExitLimit, message);
+    throw tools::Failure(exit_code_of_lcm(problem), message);
   }
   for (int32_t k = 0; const char* note = unisim_lcm_subscriber_note(input.source.get(), k); ++k) {
     input.notes.emplace_back(note);

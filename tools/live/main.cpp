@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // unisim-live: a camera goes in, poses come out.
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "tools/live/camera.hpp"
 #include "tools/live/frame_recorder.hpp"
 #include "tools/live/lcm_images.hpp"
+#include "tools/live/lcm_odometry.hpp"
 #include "tools/live/options.hpp"
 #include "tools/live/played_camera.hpp"
 #include "tools/live/pose_age.hpp"
@@ -36,6 +38,7 @@ class LiveRun {
       web_.attach(pipeline, predictor);
     };
     around.ended = [this](const unisim_source* source) { end(source); };
+    if (!options_.odometry_channel.empty()) around.odometry = &inbox_;
     const int code = replay::run(options_.run, around, stop);
     return code == tools::kExitDone && recording_failed_ ? tools::kExitLimit : code;
   }
@@ -57,6 +60,7 @@ class LiveRun {
         ages_.set_stamp_clock(offset_ns);
       }
     }
+    if (!options_.odometry_channel.empty()) odometry_ = open_odometry(options_, &inbox_);
     input.listeners.push_back(&ages_);
     if (web_.listener() != nullptr) input.listeners.push_back(web_.listener());
     input.notes.push_back(web_.note());
@@ -72,6 +76,8 @@ class LiveRun {
     if (is_camera(options_.device)) losses = camera_losses(source);
     if (is_lcm(options_.device)) losses = lcm_losses(source);
     if (!losses.empty()) tools::complain(kProgramName, "frames " + losses);
+    losses = odometry_ ? odometry_losses(options_, odometry_->counts()) : "";
+    if (!losses.empty()) tools::complain(kProgramName, losses);
     if (ages_.known() && !options_.run.quiet) tools::complain(kProgramName, age_text(ages_.ages()));
     if (!recorder_) return;
     const std::string problem = recorder_->finish();
@@ -83,6 +89,8 @@ class LiveRun {
   PoseAge ages_;
   StatusText status_;
   web::Output web_;
+  pipeline::DistanceInbox inbox_;
+  std::unique_ptr<lcm::OdometryListener> odometry_;  // NULL: none over LCM
   std::optional<FrameRecorder> recorder_;
   bool recording_failed_ = false;
 };

@@ -139,6 +139,27 @@ void add_process_options(CLI::App* app, Options* options) {
       ->group(group);
 }
 
+/// "lcm:CHANNEL"; a file only goes with a recording that keeps its own stamps.
+void take_odometry(Options* options) {
+  std::string& given = options->run.odometry;
+  constexpr const char* kScheme = "lcm:";
+  const bool recorded = !is_camera(options->device) && !is_lcm(options->device);
+  if (given.rfind(kScheme, 0) == 0) {
+    options->odometry_channel = given.substr(std::string(kScheme).size());
+    given.clear();
+    if (options->odometry_channel.empty() || options->odometry_channel == "UNISIM_POSE") {
+      throw tools::Failure(tools::kExitUsage,
+                           "--odometry lcm:CHANNEL: give the channel of the odometer's poses, such "
+                           "as lcm:ODOMETRY; UNISIM_POSE has those of this program");
+    }
+  } else if (!given.empty() && (!recorded || options->as_camera)) {
+    throw tools::Failure(tools::kExitUsage,
+                         "--odometry " + given +
+                             ": a file is of a run that has been; give lcm:CHANNEL, poses of an "
+                             "odometer that come over LCM");
+  }
+}
+
 void take(const Given& given, Options* options) {
   unisim_v4l2_config* const camera = &options->camera;
   if (!given.size.empty()) take_size(given.size, camera);
@@ -201,10 +222,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
                          "--predictor recorded: what a camera sees has not been recorded; use "
                          "geometric or onnx");
   }
-  if (!options.run.odometry.empty()) {
-    throw tools::Failure(tools::kExitUsage,
-                         "--odometry is a file of a run that has been; use unisim-replay");
-  }
+  take_odometry(&options);
   if (!options.run.print_config && !options.list) run_options.check();
   return options;
 }

@@ -18,6 +18,7 @@ struct Options {
   replay::Options run;        ///< out "": no results; sequence, format: of a recording played live
   std::string device;         ///< as given: camera, LCM or recording
   std::string image_channel;  ///< of LCM, "" for the usual one
+  std::string odometry_channel;  ///< of LCM, "" for none
   bool list = false;
   bool as_camera = false;          ///< the recording plays a camera
   std::optional<std::string> web;  ///< where to serve the page: PORT or ADDRESS:PORT

@@ -338,6 +338,7 @@ int run(const Options& options, const Surroundings& around, const std::atomic<bo
   listeners.insert(listeners.end(), input.listeners.begin(), input.listeners.end());
   if (lcm.listener() != nullptr) listeners.push_back(lcm.listener());
   pipeline::Options how = options.settings.pipeline;
+  how.odometry = {nullptr, options.odometry_sigma, 0.0, around.odometry};
   if (odometry) {
     const double usual = odometry->has_positions() ? 0.0 : pipeline::kPathCommonSigma;
     how.odometry = {&*odometry, options.odometry_sigma, options.odometry_common.value_or(usual)};

@@ -31,6 +31,7 @@ struct Surroundings {
   /// Before the first frame, with what will run; may be empty.
   std::function<void(const pipeline::Pipeline&, unisim_predictor*)> starts;
   std::function<void(const unisim_source*)> ended;  ///< after the last frame; may be empty
+  pipeline::DistanceInbox* odometry = nullptr;  ///< what comes of it while the run goes; borrowed
 };
 
 /// Runs, writes the results where options.out names a folder, prints the summary. Throws Failure

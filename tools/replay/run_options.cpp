@@ -78,7 +78,7 @@ void RunOptions::add_scale_options(CLI::App* app) {
   const char* const group = "Metric scale";
   app->add_option("--odometry", options_->odometry,
                   "what an odometer said, lines \"time path\", \"time x y [z]\" or TUM poses in "
-                  "seconds and metres: results are in metres")
+                  "seconds and metres: results are in metres; with unisim-live lcm:CHANNEL")
       ->group(group);
   app->add_option("--odometry-sigma", options_->odometry_sigma,
                   "its standard deviation over the path")
