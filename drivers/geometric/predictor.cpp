@@ -219,7 +219,7 @@ void info(unisim_predictor* predictor, unisim_predictor_info* out) {
   if (!me->mapper || me->mapper->counts().started == 0) {
     guarded(predictor, [&](GeometricPredictor*) {
       me->no_start = why_no_start(*me);
-      out->no_start = me->no_start.c_str();
+      if (!me->no_start.empty()) out->no_start = me->no_start.c_str();
       return UNISIM_PREDICTION_OK;
     });
   }

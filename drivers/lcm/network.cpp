@@ -4,7 +4,9 @@
 
 #include <arpa/inet.h>
 #include <fcntl.h>
+#include <netdb.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -19,6 +21,9 @@ namespace {
 
 constexpr uint16_t kUsualPort = 7667;
 constexpr const char* kUsualAddress = "239.255.76.67";
+constexpr const char* kUsualServer = "127.0.0.1";  // of tcpq
+constexpr const char* kUsualServerPort = "7700";
+constexpr int kServerMs = 2000;
 
 [[noreturn]] void refuse(const Url& url, const std::string& why) {
   throw LcmError(UNISIM_LCM_BAD_CONFIG, "URL '" + url.text + "': " + why);
@@ -106,6 +111,45 @@ void check_route(const Url& url) {
                      "dev lo");
 }
 
+/// Whether something listens there, within kServerMs. @return errno, 0: it does
+int knock(const addrinfo& at) {
+  const int probe = socket(at.ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (probe < 0) return errno;
+  int why = connect(probe, at.ai_addr, at.ai_addrlen) == 0 ? 0 : errno;
+  if (why == EINPROGRESS) {
+    pollfd waits = {probe, POLLOUT, 0};
+    socklen_t size = sizeof why;
+    if (poll(&waits, 1, kServerMs) != 1) {
+      why = ETIMEDOUT;
+    } else if (getsockopt(probe, SOL_SOCKET, SO_ERROR, &why, &size) != 0) {
+      why = errno;
+    }
+  }
+  close(probe);
+  return why;
+}
+
+/// liblcm would try anew with each message, and print three lines for each.
+void check_server(const Url& url) {
+  const size_t colon = url.address.find(':');
+  std::string host = url.address.substr(0, colon);
+  std::string port = colon == std::string::npos ? "" : url.address.substr(colon + 1);
+  if (host.empty()) host = kUsualServer;
+  if (port.empty()) port = kUsualServerPort;
+  addrinfo wanted{};
+  wanted.ai_family = AF_INET;
+  wanted.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  const int unknown = getaddrinfo(host.c_str(), port.c_str(), &wanted, &found);
+  const int why = unknown == 0 ? knock(*found) : 0;
+  const std::string reason = unknown == 0 ? std::strerror(why) : gai_strerror(unknown);
+  if (found != nullptr) freeaddrinfo(found);
+  if (unknown == 0 && why == 0) return;
+  throw LcmError(UNISIM_LCM_NO_NETWORK, "no LCM server at " + host + ":" + port + " (" + reason +
+                                            "); start one there (`java lcm.lcm.TCPService " + port +
+                                            "`), or give a udpm URL, which needs none");
+}
+
 /// liblcm prints by itself where a file cannot be made.
 void check_writable(const Url& url) {
   const int file = open(url.address.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
@@ -157,6 +201,7 @@ void check_channel(const std::string& channel) {
 
 LcmPtr open_network(const Url& url) {
   if (url.provider == "udpm") check_route(url);
+  if (url.provider == "tcpq") check_server(url);
   if (url.provider == "file") check_writable(url);
   errno = 0;
   LcmPtr handle(lcm_create(url.text.c_str()));

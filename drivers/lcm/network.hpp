@@ -32,7 +32,7 @@ Url parse_url(const char* url, Direction direction);
 /// @throws LcmError unless it is the name of one channel: liblcm takes it for a regular expression
 void check_channel(const std::string& channel);
 
-/// @throws LcmError when there is no route for multicast or liblcm cannot open it
+/// @throws LcmError when there is no route for multicast, no server, or liblcm cannot open it
 LcmPtr open_network(const Url& url);
 
 /// Bytes the system lets a socket have to receive: with no setting of its own, and at most.

@@ -83,6 +83,10 @@ void show_two_eyes(GrayImage* image) {
 
 }  // namespace
 
+TEST_CASE("before the first frame there is nothing to tell of a start") {
+  CHECK(PredictorRun(default_config()).info().no_start == nullptr);
+}
+
 TEST_CASE("a run without a start says how much was seen") {
   const std::string line = report_of(darken);
   INFO(line);

@@ -154,6 +154,13 @@ TEST_CASE("a URL that is no good is refused in one line that says why") {
   }
 }
 
+TEST_CASE("a server that is not there is named once, with what to do") {
+  const Made made = make_publisher("tcpq://127.0.0.1:1");
+  CHECK(made.publisher == nullptr);
+  CHECK(made.problem == UNISIM_LCM_NO_NETWORK);
+  CHECK(has(made.message, "no LCM server at 127.0.0.1:1 (Connection refused); start one there"));
+}
+
 TEST_CASE("a file that cannot be made is no network") {
   const Made made = make_publisher("file:///no/such/folder/x.lcm?mode=w");
   CHECK(made.publisher == nullptr);

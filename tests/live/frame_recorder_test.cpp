@@ -82,6 +82,17 @@ TEST_CASE("a recording that cannot go on is whole up to there, and says so once"
   CHECK(recorder.finish() == problem);
 }
 
+TEST_CASE("a recording ends while the disk has room for the results of the run") {
+  const TempFolder folder;
+  FrameRecorder recorder(folder / "run", false, uint64_t{1} << 62);
+  record(&recorder, 0, 3);
+  const std::string problem = recorder.finish();
+  CHECK(
+      problem.find("MB left, which are kept for the results; the recording ends after 0 frames") !=
+      std::string::npos);
+  CHECK(recorder.frames() == 0);
+}
+
 TEST_CASE("a recording replaces another one only when asked to") {
   const TempFolder folder;
   std::vector<uint8_t> pixels;

@@ -98,6 +98,32 @@ TEST_CASE("an interrupt ends the wait for a frame of a played camera") {
   CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));
 }
 
+TEST_CASE("a mask that does not fit a camera's images is refused in one line, before the run") {
+  const TempFolder folder;
+  write_file(folder / "mask.pgm", "P5 40 30 255\n" + std::string(40 * 30, '\1'));
+  const ProgramResult live = run_live({"--device", rendered_sequence(), "--as-camera", "--mask",
+                                       folder / "mask.pgm", "--out", folder / "out"});
+  CHECK(live.code == 3);
+  CHECK(live.err == "unisim-live: " + (folder / "mask.pgm") +
+                        ": the mask has 40x30 pixels, the frames 320x240; give a mask of their "
+                        "size\n");
+}
+
+TEST_CASE("a disk that takes no more images ends the recording in one line that says why") {
+  const TempFolder folder;
+  Disturbance full;
+  full.max_file_bytes = 20000;
+  const ProgramResult live = run_live(
+      {"--device", rendered_sequence(), "--out", folder / "out", "--no-report", "--quiet"}, full);
+  INFO(live.err);
+  CHECK(live.code == 4);
+  CHECK(has(live.err,
+            "recording: File too large; the recording ends after 0 frames, tracking "
+            "goes on\n"));
+  CHECK_FALSE(has(live.err, "libpng"));
+  CHECK_FALSE(std::filesystem::exists(folder / "out/recording/rgb/000000.png"));
+}
+
 TEST_CASE("what cannot be opened is named, with what to do") {
   const ProgramResult absent = run_live({"--device", "/dev/video77"});
   CHECK(absent.code == 3);

@@ -178,6 +178,21 @@ TEST_CASE("without a token a request must name this machine") {
   CHECK(serving.client.Get("/", {{"Host", "localhost:1"}})->status == 200);
 }
 
+TEST_CASE("an address of another machine is named, with what to do") {
+  Feed feed("test");
+  Address address;
+  address.host = "192.0.2.1";
+  address.port = 8080;
+  try {
+    Server server(&feed, address, "secret");
+    FAIL("an address that is not ours");
+  } catch (const unisim::tools::Failure& failure) {
+    CHECK(failure.code() == unisim::tools::kExitLimit);
+    CHECK(has(failure.what(), "--web 192.0.2.1:8080: "));
+    CHECK(has(failure.what(), "give an address of this machine"));
+  }
+}
+
 TEST_CASE("a port that is taken is named, with what to do") {
   Serving serving;
   Feed feed("test");

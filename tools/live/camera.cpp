@@ -83,6 +83,7 @@ replay::Input open_camera(const Options& options, int64_t* stamp_clock_offset_ns
   unisim_v4l2_mode mode{};
   mode.struct_size = sizeof mode;
   unisim_v4l2_get_mode(camera, &mode);
+  input.live_size = replay::FrameSize{mode.width, mode.height};
   input.notes.push_back(tools::format("%s (%s): %dx%d %s, %.3g frames/s", mode.device, mode.card,
                                       mode.width, mode.height, mode.pixel_format, mode.fps));
   for (int32_t k = 0; unisim_v4l2_note(camera, k) != nullptr; ++k) {

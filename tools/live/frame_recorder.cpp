@@ -3,6 +3,7 @@
 #include "tools/live/frame_recorder.hpp"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "drivers/common/packed_copy.hpp"
 #include "tools/common/failure.hpp"
 #include "tools/common/text.hpp"
+#include "tools/live/scheduling.hpp"
 
 namespace unisim::live {
 namespace {
@@ -28,8 +30,8 @@ std::string name_of(int64_t number) {
 
 }  // namespace
 
-FrameRecorder::FrameRecorder(const std::string& folder, bool force)
-    : folder_(folder), slots_(kWaiting) {
+FrameRecorder::FrameRecorder(const std::string& folder, bool force, uint64_t spare_bytes)
+    : folder_(folder), spare_bytes_(spare_bytes), slots_(kWaiting) {
   std::error_code error;
   const fs::path images = fs::path(folder) / "rgb";
   if (!force && fs::exists(images / "000000.png", error)) {
@@ -85,6 +87,7 @@ void FrameRecorder::end(const std::string& why) {
 }
 
 void FrameRecorder::loop() {
+  share_as_usual();
   std::unique_lock<std::mutex> lock(mutex_);
   bool failed = false;
   for (;;) {
@@ -103,19 +106,40 @@ void FrameRecorder::loop() {
   }
 }
 
-/// @return why not, "" when the image is there and listed
-std::string FrameRecorder::write(const Slot& slot) {
-  const cv::Mat view = drivers::image_mat(slot.image);
-  const std::string name = name_of(written_);
+/// Not by OpenCV's own function: it does not say why a file cannot be written.
+/// @return why not, "" when it is there; else there is nothing
+std::string FrameRecorder::write_image(const unisim_image& image, const std::string& path) {
   // The least compression: larger files, a third of the time.
   constexpr int kLevel = 1;
-  std::string why;
   try {
-    if (!cv::imwrite(folder_ + "/" + name, view, {cv::IMWRITE_PNG_COMPRESSION, kLevel})) {
-      why = "cannot be written";
+    if (!cv::imencode(".png", drivers::image_mat(image), bytes_,
+                      {cv::IMWRITE_PNG_COMPRESSION, kLevel})) {
+      return "an image cannot be encoded";
     }
   } catch (const std::exception& error) {
-    why = error.what();
+    return error.what();
+  }
+  std::FILE* const file = std::fopen(path.c_str(), "wb");
+  if (file == nullptr) return std::strerror(errno);
+  errno = 0;
+  const bool whole = std::fwrite(bytes_.data(), 1, bytes_.size(), file) == bytes_.size();
+  const int why = errno;
+  if (std::fclose(file) == 0 && whole) return "";
+  const std::string reason = std::strerror(whole || why == 0 ? errno : why);
+  std::remove(path.c_str());
+  return reason;
+}
+
+/// @return why not, "" when the image is there and listed
+std::string FrameRecorder::write(const Slot& slot) {
+  const std::string name = name_of(written_);
+  std::error_code unknown;
+  const auto left = fs::space(folder_, unknown).available;
+  std::string why;
+  if (!unknown && left < spare_bytes_) {
+    why = "the disk has " + std::to_string(left >> 20) + " MB left, which are kept for the results";
+  } else {
+    why = write_image(slot.image, folder_ + "/" + name);
   }
   const bool listed =
       why.empty() &&

@@ -16,11 +16,14 @@ namespace unisim::live {
 
 /// Writes FOLDER/rgb/NNNNNN.png and FOLDER/rgb.txt: the frames that were tracked, with their stamps
 /// to the nanosecond. On a thread of its own, that tracking does not wait for: when kWaiting images
-/// wait for a slow disk, or the disk is full, the recording ends where it is whole.
+/// wait for a slow disk, or the disk is nearly full, the recording ends where it is whole.
 class FrameRecorder : public pipeline::Listener {
  public:
+  /// Bytes of the disk that are left for the results of the run.
+  static constexpr uint64_t kSpareBytes = 64 << 20;
+
   /// Makes the folder. Throws Failure (3): it is there with images in it, or cannot be made.
-  FrameRecorder(const std::string& folder, bool force);
+  FrameRecorder(const std::string& folder, bool force, uint64_t spare_bytes = kSpareBytes);
   /// Writes what waits.
   ~FrameRecorder() override;
   FrameRecorder(const FrameRecorder&) = delete;
@@ -44,9 +47,11 @@ class FrameRecorder : public pipeline::Listener {
 
   void loop();
   std::string write(const Slot& slot);
+  std::string write_image(const unisim_image& image, const std::string& path);
   void end(const std::string& why);
 
   std::string folder_;
+  uint64_t spare_bytes_;
   std::FILE* list_ = nullptr;
   std::vector<Slot> slots_;  // a ring
   size_t head_ = 0;
@@ -54,6 +59,7 @@ class FrameRecorder : public pipeline::Listener {
   bool stopping_ = false;
   std::string problem_;
   int64_t written_ = 0;
+  std::vector<uint8_t> bytes_;  // of the image in work
   std::mutex mutex_;
   std::condition_variable changed_;
   std::thread thread_;

@@ -24,6 +24,13 @@
 namespace unisim::live {
 namespace {
 
+/// Of the frames of a recording that plays a camera.
+std::optional<replay::FrameSize> recorded_size(const replay::Options& options) {
+  replay::Options recording = options;
+  recording.settings.pipeline.live = false;
+  return replay::frame_size(recording);
+}
+
 /// One run: what listens to it lives as long as it does.
 class LiveRun {
  public:
@@ -55,6 +62,7 @@ class LiveRun {
     } else {
       input.source = replay::open_sequence(options_.run, &input.notes);
       if (options_.as_camera) {
+        input.live_size = recorded_size(options_.run);
         const int64_t offset_ns = time_of_day_offset_ns();
         input.source = play_as_camera(std::move(input.source), offset_ns);
         ages_.set_stamp_clock(offset_ns);

@@ -52,10 +52,14 @@ void apply(const Scheduling& scheduling) {
   }
 }
 
-void give_way() {
-  // Neither can fail for a thread that asks for less than it has.
+void share_as_usual() {
+  // Cannot fail for a thread that asks for less than it has.
   const sched_param usual{};
   sched_setscheduler(0, SCHED_OTHER, &usual);
+}
+
+void give_way() {
+  share_as_usual();
   constexpr int kNice = 10;
   setpriority(PRIO_PROCESS, 0, kNice);
 }

@@ -19,6 +19,10 @@ struct Scheduling {
 /// with the command that lets it; (2): no such processor.
 void apply(const Scheduling& scheduling);
 
+/// This thread, and those it starts, have no real-time priority: what must not hold tracking, and
+/// yet has to be done in time.
+void share_as_usual();
+
 /// This thread, and those it starts, run when the tracking leaves time: usual sharing, less of it.
 void give_way();
 

@@ -100,7 +100,7 @@ SourcePtr open_sequence(const Options& options, std::vector<std::string>* notes)
 }
 
 std::optional<FrameSize> frame_size(const Options& options) {
-  if (options.settings.pipeline.live) return std::nullopt;
+  if (options.settings.pipeline.live) return options.live_size;
   std::vector<std::string> notes;
   const SourcePtr source = open_sequence(options, &notes);
   unisim_frame frame{};

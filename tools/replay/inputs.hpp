@@ -19,13 +19,8 @@ using drivers::SourcePtr;
 /// @param[out] notes lines worth telling
 SourcePtr open_sequence(const Options& options, std::vector<std::string>* notes);
 
-struct FrameSize {
-  int32_t width = 0;
-  int32_t height = 0;
-};
-
-/// Of the sequence's first readable frame. Nothing where there is none, as the run itself will say,
-/// or where the frames are those of a live camera.
+/// Of the sequence's first readable frame, or what a live camera has said. Nothing where there is
+/// none, as the run itself will say.
 std::optional<FrameSize> frame_size(const Options& options);
 
 /// The predictor asked for, inside a recorder where --record asks for one. Throws Failure.

@@ -12,6 +12,11 @@ namespace unisim::replay {
 
 inline constexpr const char* kProgramName = "unisim-replay";
 
+struct FrameSize {
+  int32_t width = 0;
+  int32_t height = 0;
+};
+
 struct Options {
   const char* program = kProgramName;  ///< in messages
   std::string sequence;
@@ -46,7 +51,8 @@ struct Options {
   bool report = true;
   bool print_config = false;
   bool list_frames = false;
-  Settings settings;  ///< defaults, then --config, then the options
+  std::optional<FrameSize> live_size;  ///< of a live camera's frames, where it has said it
+  Settings settings;                   ///< defaults, then --config, then the options
 };
 
 /// Reads the command line and the configuration it names. Throws Failure.

@@ -323,7 +323,9 @@ int run(const Options& options, const Surroundings& around, const std::atomic<bo
   Input input = around.open();
   const std::string format = input.source->format;
   Settings settings = options.settings;
-  const PredictorPtr predictor = open_predictor(options, &settings, &input.notes);
+  Options opened = options;
+  opened.live_size = input.live_size;
+  const PredictorPtr predictor = open_predictor(opened, &settings, &input.notes);
   const int32_t earlier = map ? map->about().keyframes : 0;
   const unisim_config config =
       session_config(options, settings, input.source.get(), *predictor, earlier);

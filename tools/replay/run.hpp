@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ namespace unisim::replay {
 struct Input {
   SourcePtr source;
   eval::Trajectory truth;                      ///< without poses: none
+  std::optional<FrameSize> live_size;          ///< of a live camera's frames, where it is known
   std::vector<std::string> notes;              ///< told before the run
   std::vector<pipeline::Listener*> listeners;  ///< beside those of the results; borrowed
 };

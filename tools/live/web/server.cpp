@@ -71,6 +71,13 @@ void hang_up(int port) {
   }
 }
 
+/// Where the address and port cannot be had. @param why errno
+const char* what_to_do(int why) {
+  if (why == EADDRINUSE) return "; another program has this port, give another one";
+  if (why == EACCES) return "; ports below 1024 are the system's, give one above";
+  return "; give an address of this machine (`ip addr` lists them), or 0.0.0.0 for all of them";
+}
+
 }  // namespace
 
 class Server::Impl {
@@ -127,10 +134,10 @@ Server::Impl::Impl(Feed* feed, const Address& address, const std::string& token)
   if (any ? port_ <= 0 : !http_.bind_to_port(address.host, address.port)) {
     const int why = errno;
     const std::string where = address.host + ":" + std::to_string(address.port);
-    throw tools::Failure(
-        tools::kExitLimit,
-        "--web " + where + ": " + (why != 0 ? std::strerror(why) : "no such address here") +
-            (why == EADDRINUSE ? "; another program has this port, give another one" : ""));
+    throw tools::Failure(tools::kExitLimit,
+                         "--web " + where + ": " +
+                             (why != 0 ? std::strerror(why) : "no such address here") +
+                             what_to_do(why));
   }
   thread_ = std::thread([this] {
     give_way();
