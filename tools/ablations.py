@@ -114,7 +114,7 @@ def measure(options):
 
 def protocol(options):
     if options.recording:
-        return {"predictions": options.recording, "sequence": options.sequence, "options": options.replay,
+        return {"predictions": options.recording, "sequence": options.sequence, "options": " ".join(options.replay),
                 "alignment": "sim3", "session": "batch"}
     return {"predictions": "simulated, world scan", "keyframes": options.keyframes, "seeds": options.seeds,
             "alignment": "sim3", "session": "batch", "preset": options.preset}
@@ -129,7 +129,9 @@ def table(result):
     lines += (["| ATE m, without | overlap 0 | paper | overlap 2 | paper |", "|---|---|---|---|---|"] if simulated_run
               else ["| without | ATE m |", "|---|---|"])
     for row, entries in by_row.items():
-        figures = [f"{e['ate_m']:.3f}" + (f" | {e['paper_m']:.3f}" if e["paper_m"] is not None else "") for e in entries]
+        digits = 3 if simulated_run else 4  # one recording repeats to the last digit
+        figures = [f"{e['ate_m']:.{digits}f}" + (f" | {e['paper_m']:.3f}" if e["paper_m"] is not None else "")
+                   for e in entries]
         lines.append(f"| {row} | " + " | ".join(figures) + " |")
     if result["noise"]:
         lines += ["", "| more noise of | sigma | ATE m | paper |", "|---|---|---|---|"]

@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -34,6 +35,29 @@ class Program(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("alignment sim3", done.stdout.splitlines()[0])
         self.assertRegex(done.stdout, r"\| full \| 0\.\d{3} \| 0\.032 \| 0\.\d{3} \| 0\.020 \|")
+
+    def test_recorded_predictions(self):
+        replay, synth = Path(PROGRAMS) / "unisim-replay", Path(PROGRAMS) / "unisim-synth"
+        if not replay.is_file() or not synth.is_file():
+            self.skipTest("no unisim-replay or unisim-synth")
+        with tempfile.TemporaryDirectory() as folder:
+            room, recording = Path(folder) / "room", Path(folder) / "room.rec"
+            subprocess.run([synth, room, "--scene", "room", "--frames", "90", "--size", "320x240", "--loops", "0"],
+                           check=True, capture_output=True)
+            subprocess.run([replay, room, "--stride", "3", "--record", recording, "--out", Path(folder) / "out", "--quiet",
+                            "--no-report"], check=True, capture_output=True)
+            done = run("--programs", PROGRAMS, "--recording", recording, "--sequence", room, "--json", "--",
+                       "--stride", 3, "--ground-truth", room / "groundtruth.txt")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            result = json.loads(done.stdout)
+            ate = {entry["row"]: entry["ate_m"] for entry in result["ablations"]}
+            self.assertEqual(len(ate), 10)
+            self.assertEqual(result["noise"], [])
+            self.assertNotEqual(ate["bridge"], ate["full"])
+            self.assertNotEqual(ate["tracking only"], ate["full"])
+            other = run("--programs", PROGRAMS, "--recording", recording, "--sequence", room, "--", "--stride", 5)
+            self.assertEqual(other.returncode, 3)
+            self.assertEqual(len(other.stderr.splitlines()), 1, other.stderr)
 
     def test_refusals(self):
         self.assertEqual(run("--recording", "a.rec").returncode, 2)
