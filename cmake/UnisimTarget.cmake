@@ -94,14 +94,28 @@ function(unisim_vectorised_sources target)
   target_compile_definitions(${target} PUBLIC UNISIM_HAS_AVX2)
 endfunction()
 
+# unisim_alone(SOURCES...): compiled one by one where all else is compiled several at once (CMAKE_UNITY_BUILD): their names
+# are those of other sources beside them.
+function(unisim_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # unisim_add_tests(LABEL LIBS...): one Catch2 program from all *.cpp of the calling folder, each test
 # case registered with CTest under LABEL. A case that cannot run says WARN("skipped: why"). An exit code
 # cannot say it: that of Catch2 2 is the number of failures.
 function(unisim_add_tests label)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_executable(unisim-test-${label} ${sources})
-  unisim_target_defaults(unisim-test-${label})
-  target_link_libraries(unisim-test-${label} PRIVATE unisim_test_main ${ARGN})
-  catch_discover_tests(unisim-test-${label} TEST_PREFIX "${label}: "
+  unisim_test_program(unisim-test-${label} "${label}: " ${label} ${ARGN})
+endfunction()
+
+# unisim_test_program(TARGET PREFIX LABEL LIBS...): the same for a program whose sources are there. Tests seldom take long,
+# compiling them does: the headers of Catch2 and Eigen are read once for several files, and little is optimised.
+function(unisim_test_program target prefix label)
+  unisim_target_defaults(${target})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_link_libraries(${target} PRIVATE unisim_test_main ${ARGN})
+  catch_discover_tests(${target} TEST_PREFIX "${prefix}"
     PROPERTIES LABELS ${label} SKIP_REGULAR_EXPRESSION "warning:[^a-z]+skipped: ")
 endfunction()

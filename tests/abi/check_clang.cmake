@@ -4,7 +4,7 @@
 # Not optimised: what an optimiser would leave out counts.
 include(${CMAKE_CURRENT_LIST_DIR}/../support/library_alone.cmake)
 need_programs(clang clang++)
-configure_library(-DCMAKE_C_COMPILER=${found_clang} -DCMAKE_CXX_COMPILER=${found_clang++} -DCMAKE_BUILD_TYPE=Debug
+configure_library(-DCMAKE_C_COMPILER=${found_clang} -DCMAKE_CXX_COMPILER=${found_clang++} -DCMAKE_BUILD_TYPE=Debug -DCMAKE_UNITY_BUILD=ON
   -DEigen3_DIR=${EIGEN})
 execute_process(
   COMMAND ${CMAKE_COMMAND} --build ${FOLDER} --target unisim unisim_static --parallel 2

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Reader of g2o SE(3) graphs.
 #include "drivers/sequence/text_file.hpp"
+#include "tests/bench/graph_of.hpp"
 #include "tests/support/catch.hpp"
-#include "tests/support/temp_folder.hpp"
-#include "tools/bench/solver/pose_graph.hpp"
 
 using namespace unisim;
 using namespace unisim::bench;
@@ -17,11 +16,7 @@ const std::string kEdge =
     "EDGE_SE3:QUAT 5 9 1 0 0 0 0 0 1 "
     "10 0.5 0 0 0 0 11 0 0 0 0 12 0 0 0 13 0 0 14 0 15\n";
 
-PoseGraph read(const std::string& content) {
-  TempFolder folder;
-  folder.write("graph.g2o", content);
-  return read_pose_graph(folder / "graph.g2o");
-}
+PoseGraph read(const std::string& content) { return graph_of(content, "graph.g2o"); }
 
 }  // namespace
 

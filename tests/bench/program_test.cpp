@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* kGraph =
+constexpr const char* kTriangle =
     "node 0 T 1 0 0 0 1 0 0 0 1\n"
     "node 1 T 0 0 0 0 1 1 0.5 0 1\n"
     "node 2 T 0 0 0 0 1 2 0.5 0 1\n"
@@ -20,7 +20,7 @@ constexpr const char* kGraph =
 
 class Program : public ProgramInFolder {
  public:
-  Program() : ProgramInFolder(UNISIM_BENCH_PROGRAM) { folder().write("graph.usg", kGraph); }
+  Program() : ProgramInFolder(UNISIM_BENCH_PROGRAM) { folder().write("graph.usg", kTriangle); }
 };
 
 void require_times(const Json& times) {

@@ -5,9 +5,9 @@
 #include <numeric>
 #include <sstream>
 
+#include "tests/bench/graph_of.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/recorded_data.hpp"
-#include "tests/support/temp_folder.hpp"
 #include "tools/bench/solver/problem.hpp"
 
 using namespace unisim;
@@ -19,12 +19,6 @@ constexpr double kTinyGrid3D = 3.3639408107431676;
 constexpr double kSmallGrid3D = 229.07689232365948;
 constexpr double kParkingGarage = 0.6193452899774295;
 constexpr double kSphere2500 = 363.5748336240913;
-
-PoseGraph read(const std::string& content) {
-  TempFolder folder;
-  folder.write("graph.usg", content);
-  return read_pose_graph(folder / "graph.usg");
-}
 
 SolverRun solve(const PoseGraph& graph) {
   LmOptions options;
@@ -53,15 +47,15 @@ TEST_CASE("the cost of an edge is its weight times the Huber function of the res
   const std::string nodes = "node 0 T 1 0 0 0 1 0 0 0 1\nnode 1 T 0 0 0 0 1 3 4 0 1\n";
   const std::string identity = "0 0 0 1 0 0 0 1";
   // |e| = 5: 2 * 25 / 2, then 2 * 1 * (5 - 0.5).
-  CHECK(solve(read(nodes + "edge v2v 0 1 2 0 " + identity + "\n")).first_cost == Approx(25.0));
-  CHECK(solve(read(nodes + "edge v2v 0 1 2 1 " + identity + "\n")).first_cost == Approx(9.0));
+  CHECK(solve(graph_of(nodes + "edge v2v 0 1 2 0 " + identity + "\n")).first_cost == Approx(25.0));
+  CHECK(solve(graph_of(nodes + "edge v2v 0 1 2 1 " + identity + "\n")).first_cost == Approx(9.0));
   // e = log 1 - log 1 - 0.5 on the scale, besides an edge without error: 50 * 0.25 / 2.
   const std::string exact = "edge v2v 0 1 1 0 0 0 0 1 3 4 0 1\n";
-  CHECK(solve(read(nodes + exact + "edge scale 0 1 50 0 0.5\n")).first_cost == Approx(6.25));
+  CHECK(solve(graph_of(nodes + exact + "edge scale 0 1 50 0 0.5\n")).first_cost == Approx(6.25));
 }
 
 TEST_CASE("the trace goes down from the first cost to the last, in growing time") {
-  const SolverRun run = solve(read(square()));
+  const SolverRun run = solve(graph_of(square()));
   REQUIRE(run.status == Status::kOk);
   REQUIRE(run.report.stop == LmStop::kConverged);
   REQUIRE(run.trace.size() == static_cast<size_t>(run.report.accepted) + 1);
@@ -75,7 +69,7 @@ TEST_CASE("the trace goes down from the first cost to the last, in growing time"
 }
 
 TEST_CASE("the phases make up the time of the solve") {
-  const SolverRun run = solve(read(square()));
+  const SolverRun run = solve(graph_of(square()));
   const double sum = std::accumulate(run.phase_ms.begin(), run.phase_ms.end(), 0.0);
   CHECK(sum <= run.solve_ms);
   CHECK(sum > 0.5 * run.solve_ms);
@@ -84,7 +78,7 @@ TEST_CASE("the phases make up the time of the solve") {
 }
 
 TEST_CASE("the factor's declared size is the one the solver needs") {
-  const PoseGraph graph = read(square());
+  const PoseGraph graph = graph_of(square());
   const int32_t needed = needed_factor_blocks(graph);
   LmOptions options;
   LmReport report;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Reader of .usg graphs: every record, and what is said about a broken one.
 #include "drivers/sequence/text_file.hpp"
+#include "tests/bench/graph_of.hpp"
 #include "tests/support/catch.hpp"
-#include "tests/support/temp_folder.hpp"
-#include "tools/bench/solver/pose_graph.hpp"
 
 using namespace unisim;
 using namespace unisim::bench;
@@ -22,17 +21,11 @@ constexpr const char* kGraph =
     "edge tie 1000000 1000001 0.2 0 0 0 0 1 1 0 0 1 0 0 0 1 2 0 0 1\n"
     "edge scale 1000000 1000001 50 0.3 0.125\n";
 
-PoseGraph read(const std::string& content) {
-  TempFolder folder;
-  folder.write("graph.usg", content);
-  return read_pose_graph(folder / "graph.usg");
-}
-
 void require_refusal(const std::string& content, const std::string& place,
                      const std::string& reason) {
   INFO(content);
   try {
-    read(content);
+    graph_of(content);
     FAIL("the file was taken");
   } catch (const sequence::InputError& error) {
     const std::string line = error.what();
@@ -48,7 +41,7 @@ const std::string kNodes = "node 0 T 1 0 0 0 1 0 0 0 1\nnode 1 T 0 0 0 0 1 0 0 0
 }  // namespace
 
 TEST_CASE("nodes keep kind, hold, pose; quaternions come out with length 1") {
-  const PoseGraph graph = read(kGraph);
+  const PoseGraph graph = graph_of(kGraph);
   REQUIRE(graph.nodes.size() == 4);
   CHECK(graph.nodes[0].fixed);
   CHECK_FALSE(graph.nodes[0].submap);
@@ -60,7 +53,7 @@ TEST_CASE("nodes keep kind, hold, pose; quaternions come out with length 1") {
 }
 
 TEST_CASE("edges keep type, ends, weight, width and measurement") {
-  const PoseGraph graph = read(kGraph);
+  const PoseGraph graph = graph_of(kGraph);
   REQUIRE(graph.edges.size() == 5);
   CHECK(graph.edges[0].kind == FileEdgeKind::kTwoView);
   CHECK(graph.edges[0].weight == 2.0);

@@ -16,7 +16,7 @@ size_t size_of(const unisim_config& config) {
   return size;
 }
 
-unisim_config small_config() {
+unisim_config arena_config() {
   unisim_config config = default_config();
   config.max_keyframes = 24;
   config.window_size = 6;
@@ -27,7 +27,7 @@ unisim_config small_config() {
 }  // namespace
 
 TEST_CASE("one byte less than unisim_arena_size is out of memory") {
-  unisim_config config = small_config();
+  unisim_config config = arena_config();
   config.window_overlap = GENERATE(0, 2, 5);
   const size_t size = size_of(config);
   std::vector<unsigned char> arena(size);
@@ -40,7 +40,7 @@ TEST_CASE("one byte less than unisim_arena_size is out of memory") {
 }
 
 TEST_CASE("any alignment of the arena works and nothing outside it is written") {
-  const unisim_config config = small_config();
+  const unisim_config config = arena_config();
   const size_t size = size_of(config);
   const auto shift = static_cast<size_t>(GENERATE(range(0, 65)));
   std::vector<unsigned char> memory(size + 256, 0xA5);
@@ -73,7 +73,7 @@ TEST_CASE("the parts of the arena add up to its size") {
 }
 
 TEST_CASE("a session filled to its keyframe capacity works and refuses one more") {
-  unisim_config config = small_config();
+  unisim_config config = arena_config();
   config.window_overlap = GENERATE(0, 1, 2, 3, 4, 5);
   World world(config.max_keyframes, 11U);
   Host host(config);
@@ -98,7 +98,7 @@ TEST_CASE("a session filled to its keyframe capacity works and refuses one more"
 }
 
 TEST_CASE("a prediction with more views than the window size is over capacity") {
-  const unisim_config config = small_config();
+  const unisim_config config = arena_config();
   World world(config.max_keyframes, 11U);
   Host host(config);
   host.feed(world, 12);
@@ -109,7 +109,7 @@ TEST_CASE("a prediction with more views than the window size is over capacity") 
 }
 
 TEST_CASE("windows beyond max_submaps are skipped, the rest goes on") {
-  unisim_config config = small_config();
+  unisim_config config = arena_config();
   config.max_submaps = 2;
   World world(config.max_keyframes, 11U);
   Host host(config);
@@ -120,7 +120,7 @@ TEST_CASE("windows beyond max_submaps are skipped, the rest goes on") {
 }
 
 TEST_CASE("closing the window at every turn stays within capacity") {
-  unisim_config config = small_config();
+  unisim_config config = arena_config();
   config.window_overlap = 5;
   World world(config.max_keyframes, 11U);
   Host host(config);
@@ -154,7 +154,7 @@ TEST_CASE("loops between many places at capacity can be factorised") {
 }
 
 TEST_CASE("reset gives back a session as created") {
-  const unisim_config config = small_config();
+  const unisim_config config = arena_config();
   World world(config.max_keyframes, 11U);
   Host host(config);
   host.feed(world, 12);

@@ -22,13 +22,6 @@ unisim_config small_config() {
   return config;
 }
 
-void feed_pairs(Host& host, World& world, int32_t count) {
-  for (int32_t k = 0; k < count; ++k) {
-    const int32_t id = host.add_keyframe();
-    if (id > 0) REQUIRE(host.add_pair(world.pair(id - 1)) == UNISIM_OK);
-  }
-}
-
 unisim_status read_pose(const Host& host, int32_t id) {
   unisim_pose pose = {};
   pose.struct_size = sizeof pose;
@@ -111,7 +104,6 @@ TEST_CASE("the newest keyframes stay readable, older ones say that they are gone
 }
 
 TEST_CASE("what retires is offered once, and tells every pose after later corrections") {
-  constexpr Noise kNoise = {0.004, 0.002, 0.02, 0.3};
   World world(200, 12U, kNoise);
   unisim_config config = small_config();
   config.max_keyframes = 250;  // all stay readable, to compare with

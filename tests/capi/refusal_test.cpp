@@ -17,13 +17,6 @@ unisim_config config_of() {
   return config;
 }
 
-void feed_pairs(Host& host, World& world, int32_t count) {
-  for (int32_t id = 0; id < count; ++id) {
-    host.add_keyframe();
-    if (id > 0) REQUIRE(host.add_pair(world.pair(id - 1)) == UNISIM_OK);
-  }
-}
-
 void multiply(Depth& depth, float factor, size_t every = 1) {
   for (size_t k = 0; k < depth.pixels().size(); k += every) depth.pixels()[k] *= factor;
 }

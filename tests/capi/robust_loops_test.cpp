@@ -101,7 +101,6 @@ TEST_CASE("a suspended loop stays so when its keyframes retire") {
 
 TEST_CASE("the host takes a loop back, before and after it is condensed") {
   const int32_t more = GENERATE(0, 30);
-  constexpr Noise kNoise = {0.004, 0.002, 0.02, 0.3};
   World world(100, 12U, kNoise);
   Host host(small_windows(2));
   feed(host, world, 70);

@@ -12,8 +12,6 @@ using namespace unisim::test;
 
 namespace {
 
-constexpr Noise kNoise = {0.004, 0.002, 0.02, 0.3};
-
 unisim_config small_config(int32_t window_submaps) {
   unisim_config config = small_windows(window_submaps);
   config.skeleton_capacity = 8;

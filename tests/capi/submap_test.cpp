@@ -18,13 +18,6 @@ unisim_config config_of(int32_t window_size, int32_t overlap) {
   return config;
 }
 
-void feed_pairs(Host& host, World& world, int32_t count) {
-  for (int32_t id = 0; id < count; ++id) {
-    host.add_keyframe();
-    if (id > 0) REQUIRE(host.add_pair(world.pair(id - 1)) == UNISIM_OK);
-  }
-}
-
 /// Depth ratios that scatter by 0.35 (median absolute deviation of the log).
 void scatter(Views& views) {
   for (Depth& depth : views.depth) {

@@ -10,8 +10,6 @@ using namespace unisim::test;
 
 namespace {
 
-constexpr Noise kNoise = {0.004, 0.002, 0.02, 0.3};
-
 /// Largest difference of two sessions' poses, relative to the first keyframe.
 double worst_difference(const Host& a, const Host& b, int32_t keyframes) {
   const unisim::Sim3 first_a = from_c(a.pose(0).T_world_kf);

@@ -216,6 +216,13 @@ std::vector<int32_t> both(int32_t a, int32_t b, int32_t half) {
   return out;
 }
 
+void feed_pairs(Host& host, World& world, int32_t count) {
+  for (int32_t k = 0; k < count; ++k) {
+    const int32_t id = host.add_keyframe();
+    if (id > 0) REQUIRE(host.add_pair(world.pair(id - 1)) == UNISIM_OK);
+  }
+}
+
 void feed(Host& host, World& world, int32_t count) {
   for (int32_t k = 0; k < count; ++k) {
     const int32_t submaps = host.info().submaps;

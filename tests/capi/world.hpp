@@ -79,6 +79,9 @@ class World {
   std::vector<std::vector<float>> depth_;
 };
 
+/// Measurements of a good predictor.
+inline constexpr Noise kNoise = {0.004, 0.002, 0.02, 0.3};
+
 /// A session with its arena.
 class Host {
  public:
@@ -119,6 +122,9 @@ unisim_config small_windows(int32_t window_submaps);
 std::vector<int32_t> ids(int32_t first, int32_t count);
 /// Keyframes of a loop: `half` from a and `half` from b on.
 std::vector<int32_t> both(int32_t a, int32_t b, int32_t half = 4);
+
+/// Feed `count` more keyframes with their pairs alone.
+void feed_pairs(Host& host, World& world, int32_t count);
 
 /// Feed `count` more keyframes and optimise whenever a window has come.
 void feed(Host& host, World& world, int32_t count);

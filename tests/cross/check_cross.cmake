@@ -10,7 +10,7 @@ need_programs(${prefix}-gcc ${prefix}-g++ ${emulator})
 
 # Other optimisation than here: it may not change a bit either.
 configure_library(-DCMAKE_TOOLCHAIN_FILE=${ROOT}/cmake/toolchains/${MACHINE}.cmake -DEigen3_DIR=${EIGEN}
-  -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG")
+  -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG")
 build_library(unisim_static)
 execute_process(
   COMMAND ${prefix}-gcc -std=c99 -O1 -ffp-contract=off -static -I${ROOT}/capi/include

@@ -18,7 +18,7 @@ function(run)
 endfunction()
 
 run(${CMAKE_COMMAND} -S ${ROOT} -B ${BUILD} --preset arm64)
-run(${CMAKE_COMMAND} --build ${BUILD} --target unisim_driver_onnx)
+run(${CMAKE_COMMAND} --build ${BUILD} --parallel 2 --target unisim_driver_onnx)
 run(${COMPILER} -std=c++17 -O2 -I${ROOT} -I${ROOT}/capi/include -I${BUILD}/capi/include
     ${ROOT}/tests/cross/onnx_probe.cpp ${BUILD}/drivers/onnx/libunisim_driver_onnx.a -ldl
     -o ${BUILD}/onnx_probe)

@@ -9,7 +9,7 @@
 namespace {
 
 // A square of 2 m and the same drawn twice as large, with one corner 1 m too high.
-constexpr const char* kTruth =
+constexpr const char* kTruthText =
     "0 0 0 0 0 0 0 1\n1 2 0 0 0 0 0 1\n2 2 2 0 0 0 0 1\n3 0 2 0 0 0 0 1\n";
 constexpr const char* kEstimate =
     "# half time steps are not in the truth\n0 0 0 0 0 0 0 1\n1.01 4 0 1 0 0 0 1\n1.5 9 9 9 0 0 0 "
@@ -19,7 +19,7 @@ constexpr const char* kEstimate =
 class Program : public ProgramInFolder {
  public:
   Program() : ProgramInFolder(UNISIM_EVAL_PROGRAM) {
-    folder().write("gt.txt", kTruth);
+    folder().write("gt.txt", kTruthText);
     folder().write("est.txt", kEstimate);
   }
 

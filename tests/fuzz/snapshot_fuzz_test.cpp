@@ -12,7 +12,7 @@ using namespace unisim::test;
 namespace {
 
 /// Two sessions get the same calls; now and then the second is loaded from what the first saves.
-int32_t run(uint32_t seed, double garbage) {
+int32_t save_and_load(uint32_t seed, double garbage) {
   CAPTURE(seed, garbage);
   const unisim_config config = random_config(seed);
   OwnedSession first(config);
@@ -57,6 +57,6 @@ int32_t run(uint32_t seed, double garbage) {
 TEST_CASE("sessions loaded at random moments go on as those that saved") {
   const double garbage = GENERATE(0.0, 0.05);
   int32_t loads = 0;
-  for (uint32_t seed = 1; seed < 1 + fuzz_seeds(); ++seed) loads += run(seed, garbage);
+  for (uint32_t seed = 1; seed < 1 + fuzz_seeds(); ++seed) loads += save_and_load(seed, garbage);
   CHECK(loads > 3 * static_cast<int32_t>(fuzz_seeds()));
 }

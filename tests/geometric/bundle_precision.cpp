@@ -11,7 +11,7 @@ using namespace unisim::geometric;
 
 namespace {
 
-constexpr double kStep = 1e-5;
+constexpr double kDifference = 1e-5;
 
 // Unknowns in order: 6 per free camera, 3 per point, log f, k1.
 struct Dense {
@@ -54,7 +54,8 @@ struct Dense {
   Eigen::MatrixXd information() const {
     Eigen::MatrixXd J(2 * problem.observation_count(), size());
     for (int k = 0; k < size(); ++k) {
-      J.col(k) = (residuals(moved(k, kStep)) - residuals(moved(k, -kStep))) / (2.0 * kStep);
+      J.col(k) = (residuals(moved(k, kDifference)) - residuals(moved(k, -kDifference))) /
+                 (2.0 * kDifference);
     }
     Eigen::MatrixXd H = J.transpose() * J;
     const double focal_sigma = problem.intrinsics.log_focal_sigma;
@@ -124,9 +125,9 @@ TEST_CASE("center_sigma agrees with a dense covariance") {
   const Eigen::MatrixXd covariance = pseudo_inverse(dense.information().topLeftCorner(n, n));
   Eigen::MatrixXd A(3 * static_cast<Eigen::Index>(cameras.size()), n);
   for (int k = 0; k < n; ++k) {
-    A.col(k) = (Dense::centers(dense.moved(k, kStep), cameras) -
-                Dense::centers(dense.moved(k, -kStep), cameras)) /
-               (2.0 * kStep);
+    A.col(k) = (Dense::centers(dense.moved(k, kDifference), cameras) -
+                Dense::centers(dense.moved(k, -kDifference), cameras)) /
+               (2.0 * kDifference);
   }
   const Eigen::VectorXd s = Dense::centers(dense.problem, cameras).normalized();
   A -= s * (s.transpose() * A);

@@ -13,15 +13,15 @@ using unisim::geometric::Tracks;
 namespace {
 
 constexpr int kSide = 240;
-constexpr int kStep = 30;
+constexpr int kDotStep = 30;
 constexpr int kSpacing = 12;
 
 /// Dots on middle gray: `left` grey levels brighter in the left half, `right` in the right one. One
 /// pixel of each stands out: of equal ones FAST takes none.
 cv::Mat dots(int left, int right) {
   cv::Mat image(kSide, kSide, CV_8UC1, cv::Scalar(128));
-  for (int y = kStep / 2; y < kSide; y += kStep) {
-    for (int x = kStep / 2; x < kSide; x += kStep) {
+  for (int y = kDotStep / 2; y < kSide; y += kDotStep) {
+    for (int x = kDotStep / 2; x < kSide; x += kDotStep) {
       const int contrast = x < kSide / 2 ? left : right;
       image(cv::Rect(x, y, 3, 3)).setTo(128 + contrast - 1);
       image.at<uint8_t>(y + 1, x + 1) = static_cast<uint8_t>(128 + contrast);

@@ -149,7 +149,6 @@ TEST_CASE("a keyframe found in another segment waits for others so long and no l
 }
 
 TEST_CASE("a camera that comes back elsewhere and walks to where it was has one map again") {
-  constexpr int kStride = 3;
   unisim_geometric_config config = default_config();
   config.focal_px = kFocal;
   PredictorRun run(config);

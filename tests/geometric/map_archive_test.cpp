@@ -12,8 +12,6 @@ namespace unisim::geometric::test {
 
 namespace {
 
-constexpr int kStride = 3;
-
 unisim_geometric_config camera_config() {
   unisim_geometric_config config = default_config();
   config.focal_px = kFocal;
@@ -31,10 +29,6 @@ unisim_geometric_config small_config() {
 }
 
 std::string message(PredictorRun* run) { return run->table()->message(run->table()); }
-
-void show_walk(PredictorRun* run, int from, int to) {
-  for (int step = from; step < to; ++step) run->show(render_room(walk(step)), step % kStride == 0);
-}
 
 /// The map of the first 60 steps of the walk: 20 keyframes.
 MapBytes walked_map(const unisim_geometric_config& config) {

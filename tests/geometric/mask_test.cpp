@@ -15,10 +15,6 @@ namespace {
 
 constexpr int kHidden = kWidth / 3;
 
-std::size_t at(int x, int y) {
-  return static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x);
-}
-
 /// A chequered overlay over the left third, which goes with the camera.
 GrayImage with_overlay(GrayImage image) {
   for (int y = 0; y < kHeight; ++y) {

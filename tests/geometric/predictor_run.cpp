@@ -68,6 +68,10 @@ unisim_predictor_info PredictorRun::info() {
   return out;
 }
 
+void show_walk(PredictorRun* run, int from, int to) {
+  for (int step = from; step < to; ++step) run->show(render_room(walk(step)), step % kStride == 0);
+}
+
 unisim_geometric_config default_config() {
   unisim_geometric_config config{};
   unisim_geometric_config_init(&config, sizeof config);

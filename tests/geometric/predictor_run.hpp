@@ -46,6 +46,10 @@ class PredictorRun {
 
 unisim_geometric_config default_config();
 
+inline constexpr int kStride = 3;
+/// Shows steps [from, to) of the walk, every kStride-th a keyframe.
+void show_walk(PredictorRun* run, int from, int to);
+
 /// Largest distance of a centre from its true place after the best similarity, over the largest
 /// distance between true centres.
 double relative_error(const std::vector<unisim_sim3>& found, const std::vector<CameraPlace>& truth);

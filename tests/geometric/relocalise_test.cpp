@@ -9,14 +9,7 @@ namespace unisim::geometric::test {
 
 namespace {
 
-constexpr int kStride = 3;
-
 GrayImage black() { return GrayImage(static_cast<size_t>(kWidth) * kHeight, 0); }
-
-/// Steps [from, to) of the walk, every kStride-th a keyframe.
-void show_walk(PredictorRun* run, int from, int to) {
-  for (int step = from; step < to; ++step) run->show(render_room(walk(step)), step % kStride == 0);
-}
 
 void show_black(PredictorRun* run, int frames) {
   for (int k = 0; k < frames; ++k) run->show(black(), k % kStride == 0);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +20,11 @@ struct CameraPlace {
 };
 
 using GrayImage = std::vector<std::uint8_t>;
+
+/// Where a pixel lies in such an image.
+inline std::size_t at(int x, int y) {
+  return static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x);
+}
 
 /// View into a box room of 6 x 4 x 6 with a smooth random pattern on its walls.
 GrayImage render_room(const CameraPlace& place, double focal = kFocal);

@@ -17,12 +17,8 @@ namespace {
 
 using Change = std::function<void(GrayImage*)>;
 
-constexpr int kFrames = 40;
-constexpr int kStride = 2;
-
-std::size_t at(int x, int y) {
-  return static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x);
-}
+constexpr int kStartFrames = 40;
+constexpr int kStartStride = 2;
 
 /// Random squares of 10 pixels.
 GrayImage squares(unsigned seed) {
@@ -42,10 +38,10 @@ GrayImage squares(unsigned seed) {
 /// The line after a walk whose images were changed.
 std::string report_of(const Change& change) {
   PredictorRun run(default_config());
-  for (int step = 0; step < kFrames; ++step) {
+  for (int step = 0; step < kStartFrames; ++step) {
     GrayImage image = render_room(walk(step));
     change(&image);
-    run.show(image, step % kStride == 0);
+    run.show(image, step % kStartStride == 0);
   }
   const unisim_predictor_info info = run.info();
   INFO("focal length " << info.focal_px);
@@ -165,7 +161,7 @@ TEST_CASE("images too small are counted and their size is told") {
 
 TEST_CASE("a camera at rest and one that turns are told apart, and a start ends the telling") {
   PredictorRun rest(default_config());
-  rest.show_path([](int) { return walk(7); }, kFrames, kStride);
+  rest.show_path([](int) { return walk(7); }, kStartFrames, kStartStride);
   CHECK(has(rest.info().no_start, "refused: 19 not enough motion; not enough motion"));
   CHECK(rest.motion().reason == UNISIM_REASON_DUPLICATE);  // of the frame, before that of the start
   PredictorRun turned(default_config());

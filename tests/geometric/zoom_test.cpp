@@ -13,8 +13,8 @@
 namespace unisim::geometric::test {
 namespace {
 
-constexpr int kFrames = 75;
-constexpr int kStride = 3;
+constexpr int kZoomFrames = 75;
+constexpr int kZoomStride = 3;
 constexpr int kZoomBegin = 45;
 
 /// Straight ahead through the room, which makes all of it grow.
@@ -28,9 +28,9 @@ CameraPlace ahead(int step) {
 std::string remark(CameraPlace (*path)(int), double factor, int frames) {
   PredictorRun run(default_config());
   int keyframes = 0;
-  for (int step = 0; step < kFrames; ++step) {
+  for (int step = 0; step < kZoomFrames; ++step) {
     const double done = std::clamp((step - kZoomBegin + 1.0) / frames, 0.0, 1.0);
-    const bool keyframe = step % kStride == 0;
+    const bool keyframe = step % kZoomStride == 0;
     keyframes += keyframe ? 1 : 0;
     run.show(render_room(path(step), kFocal * std::pow(factor, done)), keyframe);
   }

@@ -100,4 +100,9 @@ bool Child::drain(bool open) {
   return read(output_, bytes, sizeof bytes) > 0;
 }
 
+bool told(int file) {
+  char byte = 0;
+  return read(file, &byte, 1) == 1;
+}
+
 }  // namespace unisim::testing

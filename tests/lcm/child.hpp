@@ -41,4 +41,7 @@ class Child {
   int status_ = 0;
 };
 
+/// Waits for a byte from a pipe. false: its other end is closed
+bool told(int file);
+
 }  // namespace unisim::testing

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "tests/lcm/decoded.hpp"
 #include "tests/lcm/event_log.hpp"
 #include "tests/lcm/publisher_fixture.hpp"
 #include "tests/support/catch.hpp"
@@ -86,14 +87,6 @@ uint64_t image_fingerprint() {
       .field("nmetadata", "int32_t")
       .field("metadata", "", {"nmetadata"})
       .value(metadata);
-}
-
-template <typename Message>
-Message decoded(const std::string& bytes, int (*decode)(const void*, int, int, Message*)) {
-  Message message{};
-  REQUIRE(decode(bytes.data(), 0, static_cast<int>(bytes.size()), &message) ==
-          static_cast<int>(bytes.size()));
-  return message;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/lcm/child.hpp"
 #include "tests/lcm/own_network.hpp"
 #include "tests/lcm/publisher_fixture.hpp"
 #include "tests/support/catch.hpp"
@@ -51,11 +52,6 @@ int hear_poses(int to_parent) {
   }
   lcm_destroy(lcm);
   return heard.in_order ? 0 : 5;
-}
-
-bool told(int from_child) {
-  char byte = 0;
-  return read(from_child, &byte, 1) == 1;
 }
 
 }  // namespace

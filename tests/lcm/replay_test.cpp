@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "drivers/pipeline/similarity.hpp"
+#include "tests/lcm/decoded.hpp"
 #include "tests/lcm/event_log.hpp"
 #include "tests/lcm/image_log.hpp"
 #include "tests/replay/program.hpp"
@@ -27,14 +28,6 @@ using namespace unisim::testing;
 using unisim::pipeline::compose;
 
 namespace {
-
-template <typename Message>
-Message decoded(const std::string& bytes, int (*decode)(const void*, int, int, Message*)) {
-  Message message{};
-  REQUIRE(decode(bytes.data(), 0, static_cast<int>(bytes.size()), &message) ==
-          static_cast<int>(bytes.size()));
-  return message;
-}
 
 unisim_sim3 similarity(const double pos[3], const double wxyz[4], double scale) {
   return {{wxyz[1], wxyz[2], wxyz[3], wxyz[0]}, {pos[0], pos[1], pos[2]}, scale};

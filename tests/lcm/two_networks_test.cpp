@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/lcm/child.hpp"
 #include "tests/lcm/own_network.hpp"
 #include "tests/lcm/publisher_fixture.hpp"
 #include "tests/support/catch.hpp"
@@ -23,10 +24,10 @@ using namespace unisim::testing;
 namespace {
 
 constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=1";
-constexpr int kPoses = 1000;
+constexpr int kPosesSent = 1000;
 constexpr std::chrono::milliseconds kPeriod(10);
 // A hang must not stop the test run.
-constexpr int kPatienceMs = 30000;
+constexpr int kLongestMs = 30000;
 
 int64_t microseconds() {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
@@ -43,13 +44,13 @@ bool plug_in(const std::string& device, const std::string& address) {
          run("ip link set " + device + " up") && run("ip route add 224.0.0.0/4 dev " + device);
 }
 
-struct Heard {
+struct HeardAges {
   bool in_order = true;       // the k-th pose is at k
   std::vector<int64_t> ages;  // microseconds
 };
 
-void on_pose(const lcm_recv_buf_t* received, const char* /*channel*/, void* user) {
-  auto* heard = static_cast<Heard*>(user);
+void on_stamped_pose(const lcm_recv_buf_t* received, const char* /*channel*/, void* user) {
+  auto* heard = static_cast<HeardAges*>(user);
   unisim_pose_t pose{};
   const int size = static_cast<int>(received->data_size);
   const bool good = unisim_pose_t_decode(received->data, 0, size, &pose) > 0;
@@ -60,25 +61,21 @@ void on_pose(const lcm_recv_buf_t* received, const char* /*channel*/, void* user
 
 bool say(int file, char what) { return write(file, &what, 1) == 1; }
 
-bool told(int file) {
-  char byte = 0;
-  return read(file, &byte, 1) == 1;
-}
-
 /// The other machine. @return its exit code
 int hear_poses(int from_parent, int to_parent) {
   if (!enter_own_network(false).empty() || !say(to_parent, 'n')) return 1;
   if (!told(from_parent) || !plug_in("far", "10.9.8.2")) return 2;
   lcm_t* lcm = lcm_create(kUrl);
   if (lcm == nullptr) return 3;
-  Heard heard;
-  lcm_subscription_set_queue_capacity(lcm_subscribe(lcm, "UNISIM_POSE", on_pose, &heard), 0);
+  HeardAges heard;
+  lcm_subscription_set_queue_capacity(lcm_subscribe(lcm, "UNISIM_POSE", on_stamped_pose, &heard),
+                                      0);
   if (!say(to_parent, 'l')) return 4;
-  while (heard.ages.size() < kPoses) {
-    if (lcm_handle_timeout(lcm, kPatienceMs) <= 0) break;
+  while (heard.ages.size() < kPosesSent) {
+    if (lcm_handle_timeout(lcm, kLongestMs) <= 0) break;
   }
   lcm_destroy(lcm);
-  if (heard.ages.size() != kPoses) return 5;
+  if (heard.ages.size() != kPosesSent) return 5;
   std::sort(heard.ages.begin(), heard.ages.end());
   const auto share = [&](int percent) {
     return heard.ages[heard.ages.size() * static_cast<size_t>(percent) / 100];
@@ -123,7 +120,7 @@ TEST_CASE(
   bool listening = told(up[0]);
   unisim_sim3 T = some_pose();
   auto next = std::chrono::steady_clock::now();
-  for (int k = 0; listening && k < kPoses; ++k) {
+  for (int k = 0; listening && k < kPosesSent; ++k) {
     std::this_thread::sleep_until(next += kPeriod);
     T.t[0] = k;
     listening = unisim_lcm_publish_pose(made.publisher.get(), 1000 * microseconds(), &T) ==

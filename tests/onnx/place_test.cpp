@@ -35,17 +35,17 @@ std::vector<std::vector<int8_t>> add_places(unisim_predictor* predictor,
 }
 
 /// What a predictor says of two keyframes.
-struct Answer {
+struct PairAnswer {
   std::vector<unisim_sim3> poses;
   std::vector<float> depth;
 };
 
-Answer ask(unisim_predictor* predictor, int32_t a, int32_t b) {
+PairAnswer ask(unisim_predictor* predictor, int32_t a, int32_t b) {
   const int32_t ids[2] = {a, b};
   unisim_window_prediction window{};
   INFO(predictor->window_message(predictor));
   REQUIRE(predictor->multi_view(predictor, ids, 2, &window) == UNISIM_PREDICTION_OK);
-  Answer answer;
+  PairAnswer answer;
   answer.poses.assign(window.T_window_kf, window.T_window_kf + 2);
   for (int k = 0; k < 2; ++k) {
     const unisim_depth_map& map = window.depth[k];
@@ -74,7 +74,7 @@ TEST_CASE("a place is answered for as at first, long after its keyframe has left
     unisim_predictor* predictor = opened.predictor.get();
     std::vector<Image> images = colourful_images(16, 12, 2);
     add_places(predictor, images);
-    const Answer at_first = ask(predictor, 0, 1);
+    const PairAnswer at_first = ask(predictor, 0, 1);
     images = colourful_images(16, 12, kBeyondTheRing);
     for (int32_t i = 2; i < kBeyondTheRing; ++i) {
       unisim_frame frame{};
@@ -83,7 +83,7 @@ TEST_CASE("a place is answered for as at first, long after its keyframe has left
       frame.image.data = images[static_cast<size_t>(i)].pixels.data();
       REQUIRE(predictor->keyframe(predictor, &frame, i) == UNISIM_PREDICTION_OK);
     }
-    const Answer later = ask(predictor, 0, 1);
+    const PairAnswer later = ask(predictor, 0, 1);
     CHECK(std::memcmp(later.poses.data(), at_first.poses.data(), 2 * sizeof(unisim_sim3)) == 0);
     CHECK(later.depth == at_first.depth);
     predictor->release_place(predictor, 0);

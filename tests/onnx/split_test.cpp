@@ -12,8 +12,8 @@ using namespace unisim::testing;
 
 namespace {
 
-constexpr int32_t kWidth = 16;
-constexpr int32_t kHeight = 12;
+constexpr int32_t kViewWidth = 16;
+constexpr int32_t kViewHeight = 12;
 
 void require_refusal(const Opened& opened, const std::string& part) {
   INFO(opened.message);
@@ -29,7 +29,7 @@ std::vector<double> window_of(const std::string& model) {
   INFO(opened.message);
   REQUIRE(opened.predictor != nullptr);
   unisim_predictor* predictor = opened.predictor.get();
-  add_keyframes(predictor, colourful_images(kWidth, kHeight, 5));
+  add_keyframes(predictor, colourful_images(kViewWidth, kViewHeight, 5));
   const int32_t ids[] = {0, 1, 2, 3, 4};
   unisim_window_prediction window{};
   REQUIRE(predictor->multi_view(predictor, ids, 5, &window) == UNISIM_PREDICTION_OK);
@@ -68,7 +68,7 @@ TEST_CASE("each keyframe is encoded once, whatever pairs and windows ask for") {
     REQUIRE(opened.predictor != nullptr);
     unisim_predictor* predictor = opened.predictor.get();
     CHECK(unisim_onnx_encoder_runs(predictor) == 0);
-    add_keyframes(predictor, colourful_images(kWidth, kHeight, 7));
+    add_keyframes(predictor, colourful_images(kViewWidth, kViewHeight, 7));
     const int32_t ids[] = {0, 1, 2, 3, 4, 5, 6};
     unisim_pair_prediction pair{};
     unisim_window_prediction window{};
@@ -94,7 +94,8 @@ TEST_CASE("what is kept of the keyframes is told and counted") {
   CHECK(has(notes, "test encoder encoder: 1 view(s)"));
   unisim_predictor_info info{};
   opened.predictor->info(opened.predictor.get(), &info);
-  CHECK(info.state_bytes >= 20 * kHeight * 2 * kWidth * static_cast<int64_t>(sizeof(float)));
+  CHECK(info.state_bytes >=
+        20 * kViewHeight * 2 * kViewWidth * static_cast<int64_t>(sizeof(float)));
 }
 
 TEST_CASE("a keyframe whose features are not finite is named, the next ones go on") {
@@ -103,7 +104,7 @@ TEST_CASE("a keyframe whose features are not finite is named, the next ones go o
   INFO(opened.message);
   REQUIRE(opened.predictor != nullptr);
   unisim_predictor* predictor = opened.predictor.get();
-  std::vector<Image> views = colourful_images(kWidth, kHeight, 5);
+  std::vector<Image> views = colourful_images(kViewWidth, kViewHeight, 5);
   for (Image& view : views) view.at(0, 0, 2) = 0;
   views[1].at(0, 0, 2) = 255;
   add_keyframes(predictor, views);

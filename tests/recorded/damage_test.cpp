@@ -10,6 +10,7 @@
 #include "tests/recorded/scripted_predictor.hpp"
 #include "tests/recorded/transcript.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 using namespace unisim::test;
 using unisim::recorded::RecordHead;
@@ -40,11 +41,7 @@ Opened run_bytes(const TempFolder& folder, const std::string& bytes) {
   return run_file(folder.file("bytes.usr"));
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-bool one_line(const std::string& text) { return !text.empty() && !contains(text, "\n"); }
+bool one_line(const std::string& text) { return !text.empty() && !has(text, "\n"); }
 
 /// Offset of the first record of a kind with data, and its head.
 size_t find_record(const std::string& bytes, unisim::recorded::Kind kind, RecordHead* head) {
@@ -92,7 +89,7 @@ TEST_CASE("a file cut off anywhere is read up to its last whole record") {
     REQUIRE(one_line(opened.message));
     REQUIRE(opened.open == (size >= header_bytes));
     if (!opened.open) continue;
-    CHECK(contains(opened.message, "cut off"));
+    CHECK(has(opened.message, "cut off"));
     size_t equal = 0;
     const auto& answers = opened.transcript.answers;
     while (equal < answers.size() && equal < whole.answers.size() &&
@@ -120,11 +117,11 @@ TEST_CASE("a run without an end still gives its figures as unknown") {
 
 TEST_CASE("what is no prediction file says so") {
   const TempFolder folder;
-  CHECK(contains(run_file(folder.file("absent.usr")).message, "absent.usr: cannot be read"));
-  CHECK(contains(run_file(folder.file("")).message, "not a file"));
-  CHECK(contains(run_bytes(folder, "").message, "byte 0: the file is empty"));
-  CHECK(contains(run_bytes(folder, "# timestamp tx ty tz\n").message, "not a prediction file"));
-  CHECK(contains(run_bytes(folder, std::string(5000, 'x')).message, "not a prediction file"));
+  CHECK(has(run_file(folder.file("absent.usr")).message, "absent.usr: cannot be read"));
+  CHECK(has(run_file(folder.file("")).message, "not a file"));
+  CHECK(has(run_bytes(folder, "").message, "byte 0: the file is empty"));
+  CHECK(has(run_bytes(folder, "# timestamp tx ty tz\n").message, "not a prediction file"));
+  CHECK(has(run_bytes(folder, std::string(5000, 'x')).message, "not a prediction file"));
 }
 
 TEST_CASE("a newer version is refused by its number") {
@@ -134,7 +131,7 @@ TEST_CASE("a newer version is refused by its number") {
   bytes[8] = 2;
   const Opened opened = run_bytes(folder, bytes);
   CHECK_FALSE(opened.open);
-  CHECK(contains(opened.message, "byte 8: format version 2"));
+  CHECK(has(opened.message, "byte 8: format version 2"));
 }
 
 TEST_CASE("a flipped bit in a head is found when the file is opened") {
@@ -149,7 +146,7 @@ TEST_CASE("a flipped bit in a head is found when the file is opened") {
     const Opened opened = run_bytes(folder, bytes);
     CAPTURE(at, opened.message);
     CHECK_FALSE(opened.open);
-    CHECK(contains(opened.message, "byte " + std::to_string(offset) + ": checksum"));
+    CHECK(has(opened.message, "byte " + std::to_string(offset) + ": checksum"));
   }
 }
 
@@ -164,8 +161,8 @@ TEST_CASE("a flipped bit in a depth map is found when it is read") {
   const Opened opened = run_bytes(folder, bytes);
   REQUIRE(opened.open);
   REQUIRE(opened.transcript.failed > 0);
-  CHECK(contains(opened.transcript.messages[0],
-                 "byte " + std::to_string(offset) + ": checksum of the record's data"));
+  CHECK(has(opened.transcript.messages[0],
+            "byte " + std::to_string(offset) + ": checksum of the record's data"));
 }
 
 TEST_CASE("a prediction that is not a number is rejected with its place") {
@@ -180,8 +177,8 @@ TEST_CASE("a prediction that is not a number is rejected with its place") {
   const Opened opened = run_bytes(folder, bytes);
   REQUIRE(opened.open);
   CHECK(opened.transcript.failed == 0);
-  CHECK(contains(opened.transcript.messages[0], "byte " + std::to_string(offset) + ": pair 0,1"));
-  CHECK(contains(opened.transcript.messages[0], "not a number"));
+  CHECK(has(opened.transcript.messages[0], "byte " + std::to_string(offset) + ": pair 0,1"));
+  CHECK(has(opened.transcript.messages[0], "not a number"));
 }
 
 TEST_CASE("a depth map larger than its record is refused") {
@@ -198,7 +195,7 @@ TEST_CASE("a depth map larger than its record is refused") {
   const Opened opened = run_bytes(folder, bytes);
   REQUIRE(opened.open);
   REQUIRE(opened.transcript.failed > 0);
-  CHECK(contains(opened.transcript.messages[0], "depth map larger than its record"));
+  CHECK(has(opened.transcript.messages[0], "depth map larger than its record"));
 }
 
 TEST_CASE("a record taken out of the middle is noticed") {
@@ -210,7 +207,7 @@ TEST_CASE("a record taken out of the middle is noticed") {
   bytes.erase(offset, sizeof head + head.key_bytes + static_cast<size_t>(head.data_bytes));
   const Opened opened = run_bytes(folder, bytes);
   CHECK_FALSE(opened.open);
-  CHECK(contains(opened.message, "records are missing"));
+  CHECK(has(opened.message, "records are missing"));
 }
 
 TEST_CASE("random damage never crashes and never passes unseen") {

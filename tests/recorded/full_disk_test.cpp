@@ -11,14 +11,11 @@
 #include "tests/recorded/scripted_predictor.hpp"
 #include "tests/recorded/transcript.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 using namespace unisim::test;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// Files of this process may not grow beyond a size, as on a full disk, until the end of the scope.
 class FileSizeLimit {
@@ -53,8 +50,8 @@ TEST_CASE("a full disk stops the recording, not the run") {
   REQUIRE(recorder != nullptr);
   CHECK(run_predictor(recorder).answers == expected.answers);
   const std::string problem = unisim_recorder_problem(recorder);
-  CHECK(contains(problem, "/dev/full: recording stopped after 0 records: No space left on device"));
-  CHECK_FALSE(contains(problem, "\n"));
+  CHECK(has(problem, "/dev/full: recording stopped after 0 records: No space left on device"));
+  CHECK_FALSE(has(problem, "\n"));
   recorder->destroy(recorder);
 }
 
@@ -69,14 +66,14 @@ TEST_CASE("what was written before the disk was full stays readable") {
                                                         "sequence", message, sizeof message);
     REQUIRE(recorder != nullptr);
     expected = run_predictor(recorder);
-    CHECK(contains(unisim_recorder_problem(recorder), "recording stopped after"));
+    CHECK(has(unisim_recorder_problem(recorder), "recording stopped after"));
     recorder->destroy(recorder);
   }
   CHECK(read_bytes(path).size() <= 5000);
   char message[300];
   unisim_predictor* recorded = unisim_recorded_open(path.c_str(), message, sizeof message);
   REQUIRE(recorded != nullptr);
-  CHECK(contains(message, "cut off"));
+  CHECK(has(message, "cut off"));
   const Transcript repeated = run_predictor(recorded);
   recorded->destroy(recorded);
   size_t equal = 0;
@@ -91,6 +88,6 @@ TEST_CASE(
   char message[300];
   CHECK(unisim_recorder_create(inner, folder.file("no/such.usr").c_str(), "", message, 300) ==
         nullptr);
-  CHECK(contains(message, "such.usr: cannot be written: No such file or directory"));
+  CHECK(has(message, "such.usr: cannot be written: No such file or directory"));
   inner->destroy(inner);
 }

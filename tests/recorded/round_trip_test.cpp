@@ -8,6 +8,7 @@
 #include "tests/recorded/scripted_predictor.hpp"
 #include "tests/recorded/transcript.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 using namespace unisim::test;
 
@@ -24,10 +25,6 @@ Owned open_recorded(const std::string& path) {
   INFO(message);
   REQUIRE(predictor != nullptr);
   return predictor;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace
@@ -161,8 +158,8 @@ TEST_CASE("a run with another stride is refused with the reason") {
   other.stride = 3;
   const Transcript transcript = run_predictor(recorded.get(), other);
   REQUIRE(transcript.failed > 0);
-  CHECK(contains(transcript.messages[0], "keyframe 1 is frame 3"));
-  CHECK(contains(transcript.messages[0], "--stride"));
+  CHECK(has(transcript.messages[0], "keyframe 1 is frame 3"));
+  CHECK(has(transcript.messages[0], "--stride"));
 }
 
 TEST_CASE("a run with another window is told that the recording has other options") {
@@ -174,7 +171,7 @@ TEST_CASE("a run with another window is told that the recording has other option
   const Transcript transcript = run_predictor(recorded.get(), other);
   bool said = false;
   for (const std::string& message : transcript.messages) {
-    said = said || (contains(message, "recorded with other options"));
+    said = said || (has(message, "recorded with other options"));
   }
   CHECK(said);
   CHECK(transcript.failed == 0);
@@ -188,7 +185,7 @@ TEST_CASE("a longer run takes from the recording what it holds") {
   longer.frames = 30;
   const Transcript transcript = run_predictor(recorded.get(), longer);
   CHECK(transcript.failed == 0);
-  CHECK(contains(transcript.messages.back(), "made with --from 0 --to 24"));
+  CHECK(has(transcript.messages.back(), "made with --from 0 --to 24"));
   CHECK(transcript.advice.back() == -1);
 }
 
@@ -201,5 +198,5 @@ TEST_CASE("a recording of another sequence is recognised by its times") {
   frame.timestamp_ns = 12345;
   unisim_motion motion{};
   CHECK(recorded->observe(recorded.get(), &frame, &motion) == UNISIM_PREDICTION_FAILED);
-  CHECK(contains(recorded->message(recorded.get()), "recorded from another sequence"));
+  CHECK(has(recorded->message(recorded.get()), "recorded from another sequence"));
 }

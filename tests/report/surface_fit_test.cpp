@@ -10,19 +10,19 @@ using unisim::replay::SurfaceFit;
 
 namespace {
 
-constexpr int kColumns = 40;
-constexpr int kRows = 30;
+constexpr int kFitColumns = 40;
+constexpr int kFitRows = 30;
 
 /// Every fourth pixel of every third row is measured.
 struct Sparse {
-  std::vector<float> depth = std::vector<float>(size_t{kColumns} * kRows, 0.0F);
-  std::vector<float> confidence = std::vector<float>(size_t{kColumns} * kRows, 0.0F);
+  std::vector<float> depth = std::vector<float>(size_t{kFitColumns} * kFitRows, 0.0F);
+  std::vector<float> confidence = std::vector<float>(size_t{kFitColumns} * kFitRows, 0.0F);
   std::vector<SurfaceFit::Rgb> colours;
 
   template <typename Depth>
   explicit Sparse(Depth depth_at) {
-    for (int row = 0; row < kRows; row += 3) {
-      for (int column = row % 2; column < kColumns; column += 4) {
+    for (int row = 0; row < kFitRows; row += 3) {
+      for (int column = row % 2; column < kFitColumns; column += 4) {
         const size_t at = index(column, row);
         depth[at] = depth_at(column, row);
         confidence[at] = 1.0F;
@@ -31,11 +31,11 @@ struct Sparse {
   }
 
   static size_t index(int column, int row) {
-    return static_cast<size_t>(row) * kColumns + static_cast<size_t>(column);
+    return static_cast<size_t>(row) * kFitColumns + static_cast<size_t>(column);
   }
 
   const unisim_depth_map& filled(SurfaceFit* fit) const {
-    return fit->fill({depth.data(), confidence.data(), kColumns, kRows}, 0.75F, colours);
+    return fit->fill({depth.data(), confidence.data(), kFitColumns, kFitRows}, 0.75F, colours);
   }
 };
 
@@ -43,7 +43,7 @@ float slanted(int column, int row) {
   return 1.0F / (0.3F + 0.01F * static_cast<float>(column) - 0.004F * static_cast<float>(row));
 }
 
-float step(int column, int /*row*/) { return column < kColumns / 2 ? 1.0F : 2.0F; }
+float step(int column, int /*row*/) { return column < kFitColumns / 2 ? 1.0F : 2.0F; }
 
 }  // namespace
 
@@ -51,10 +51,10 @@ TEST_CASE("between points of a slanted plane lies the plane") {
   SurfaceFit fit;
   const Sparse sparse(slanted);
   const unisim_depth_map& map = sparse.filled(&fit);
-  REQUIRE(map.width == kColumns);
-  REQUIRE(map.height == kRows);
-  for (int row = 4; row < kRows - 4; ++row) {
-    for (int column = 4; column < kColumns - 4; ++column) {
+  REQUIRE(map.width == kFitColumns);
+  REQUIRE(map.height == kFitRows);
+  for (int row = 4; row < kFitRows - 4; ++row) {
+    for (int column = 4; column < kFitColumns - 4; ++column) {
       const size_t at = Sparse::index(column, row);
       CHECK(map.depth[at] == Approx(slanted(column, row)).epsilon(0.005));
       CHECK(map.confidence[at] > 0.2F);
@@ -77,15 +77,15 @@ TEST_CASE("measured pixels are kept as they are, guessed ones are not") {
 TEST_CASE("at an edge pixels lie on one side or are less sure") {
   SurfaceFit fit;
   Sparse sparse(step);
-  for (int row = 0; row < kRows; ++row) {
-    for (int column = 0; column < kColumns; ++column) {
-      const auto level = static_cast<uint8_t>(column < kColumns / 2 ? 30 : 200);
+  for (int row = 0; row < kFitRows; ++row) {
+    for (int column = 0; column < kFitColumns; ++column) {
+      const auto level = static_cast<uint8_t>(column < kFitColumns / 2 ? 30 : 200);
       sparse.colours.push_back({level, level, level});
     }
   }
   const unisim_depth_map& map = sparse.filled(&fit);
-  for (int column = kColumns / 2 - 2; column < kColumns / 2 + 2; ++column) {
-    for (int row = 4; row < kRows - 4; ++row) {
+  for (int column = kFitColumns / 2 - 2; column < kFitColumns / 2 + 2; ++column) {
+    for (int row = 4; row < kFitRows - 4; ++row) {
       const size_t at = Sparse::index(column, row);
       CHECK(map.depth[at] == Approx(step(column, row)).epsilon(0.05));
       if (map.confidence[at] < 1.0F) CHECK(map.confidence[at] < 0.3F);

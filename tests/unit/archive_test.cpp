@@ -140,15 +140,15 @@ TEST_CASE("numbers are held against their range") {
   CHECK(check(int32_t{5}, index) == LoadProblem::kNone);
   CHECK(check(int32_t{1}, index) == LoadProblem::kContent);
   CHECK(check(int32_t{6}, index) == LoadProblem::kContent);
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
   const auto finite = [](Archive* archive, double* v) { archive->finite(v); };
   CHECK(check(1e300, finite) == LoadProblem::kNone);
-  CHECK(check(kNan, finite) == LoadProblem::kContent);
+  CHECK(check(kNoNumber, finite) == LoadProblem::kContent);
   CHECK(check(std::numeric_limits<double>::infinity(), finite) == LoadProblem::kContent);
   const auto log_ratio = [](Archive* archive, double* v) { archive->log_ratio(v); };
   CHECK(check(-69.0, log_ratio) == LoadProblem::kNone);
   CHECK(check(71.0, log_ratio) == LoadProblem::kContent);
-  CHECK(check(kNan, log_ratio) == LoadProblem::kContent);
+  CHECK(check(kNoNumber, log_ratio) == LoadProblem::kContent);
   const auto need = [](Archive* archive, int32_t* v) {
     archive->value(v);
     archive->need("max_loops", *v, 3);

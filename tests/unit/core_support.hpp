@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -16,6 +17,9 @@
 #include "core/solve/order/block_map.hpp"
 
 namespace unisim_test {
+
+inline const double kPi = std::acos(-1.0);
+inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Object whose constructor is T(Arena&, capacity), with memory of exactly the size the dry run
 /// says.

@@ -20,8 +20,8 @@ namespace {
 constexpr int32_t kWidth = 32;
 constexpr int32_t kHeight = 24;
 
-struct Fixture {
-  Fixture() : memory(1 << 20), arena(memory.data(), memory.size()), book(arena, size(), 0.25) {}
+struct BookFixture {
+  BookFixture() : memory(1 << 20), arena(memory.data(), memory.size()), book(arena, size(), 0.25) {}
 
   static DepthBookSize size() {
     DepthBookSize size;
@@ -49,7 +49,7 @@ struct Fixture {
 }  // namespace
 
 TEST_CASE("a sampled map keeps its depth while others are sampled, compared and kept") {
-  Fixture f;
+  BookFixture f;
   const SampledDepth one = f.sample(1.0F);
   const SampledDepth two = f.sample(2.0F);
   f.book.keep_two_view(two, 0);
@@ -63,7 +63,7 @@ TEST_CASE("a sampled map keeps its depth while others are sampled, compared and 
 }
 
 TEST_CASE("what has given way on the grid is found in the coarse archive") {
-  Fixture f;
+  BookFixture f;
   const SampledDepth map = f.sample(1.0F);
   for (int32_t keyframe = 0; keyframe < 6; ++keyframe) {
     f.book.begin_keyframe(keyframe);
@@ -77,7 +77,7 @@ TEST_CASE("what has given way on the grid is found in the coarse archive") {
 }
 
 TEST_CASE("a submap's view that was measured anew has its new depth") {
-  Fixture f;
+  BookFixture f;
   const SampledDepth map = f.sample(1.0F);
   f.book.keep_submap(map, {4, 7, 2});
   CHECK(f.book.submap_source(4).submap == 7);
@@ -89,7 +89,7 @@ TEST_CASE("a submap's view that was measured anew has its new depth") {
 }
 
 TEST_CASE("a map with next to no depth is of no use") {
-  Fixture f;
+  BookFixture f;
   std::vector<float> pixels(kWidth * kHeight, 0.0F);
   for (size_t k = 0; k < 15; ++k) pixels[k] = 1.0F;
   SampledDepth sampled(f.arena, {kWidth, kHeight});

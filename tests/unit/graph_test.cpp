@@ -10,10 +10,9 @@
 using namespace unisim;
 using unisim_test::about_z;
 using unisim_test::CarvedGraph;
+using unisim_test::kNan;
 
 namespace {
-
-const double kNan = std::numeric_limits<double>::quiet_NaN();
 
 int32_t node(Graph& graph, double x) {
   int32_t id = -1;

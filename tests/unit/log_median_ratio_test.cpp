@@ -26,7 +26,7 @@ struct Maps {
   std::vector<float> scratch;
 };
 
-const float kNan = std::numeric_limits<float>::quiet_NaN();
+const float kNoNumber = std::numeric_limits<float>::quiet_NaN();
 const float kInf = std::numeric_limits<float>::infinity();
 
 }  // namespace
@@ -42,7 +42,7 @@ TEST_CASE("the ratio is the median and the scatter its median deviation") {
 }
 
 TEST_CASE("pixels without depth in either map are left out") {
-  Maps maps{{2, kNan, 2, 0, -1, kInf, 2}, {1, 1, kNan, 1, 1, 1, 0}, {}};
+  Maps maps{{2, kNoNumber, 2, 0, -1, kInf, 2}, {1, 1, kNoNumber, 1, 1, 1, 0}, {}};
   LogMedianRatio out{};
   REQUIRE(maps.ratio(&out) == Status::kOk);
   CHECK(out.count == 1);
@@ -51,7 +51,7 @@ TEST_CASE("pixels without depth in either map are left out") {
 }
 
 TEST_CASE("nothing in common is not ready and leaves the output") {
-  Maps maps{{kNan, 1}, {1, kNan}, {}};
+  Maps maps{{kNoNumber, 1}, {1, kNoNumber}, {}};
   LogMedianRatio out{7.0, 8.0, 9};
   CHECK(maps.ratio(&out) == Status::kNotReady);
   CHECK(out.count == 9);

@@ -14,8 +14,9 @@ using unisim_test::MapWalk;
 namespace {
 
 /// Four nodes in a row and three places for loops between them.
-struct Fixture {
-  Fixture() : memory(4096), arena(memory.data(), memory.size()), edges(arena, 3, walk.map, watch) {
+struct LoopFixture {
+  LoopFixture()
+      : memory(4096), arena(memory.data(), memory.size()), edges(arena, 3, walk.map, watch) {
     for (int32_t k = 0; k < 4; ++k) {
       int32_t node = -1;
       MapWalk::require(
@@ -59,9 +60,9 @@ struct Fixture {
 }  // namespace
 
 TEST_CASE("a loop that says the same joins the edge and adds its information") {
-  Fixture f;
-  const int32_t one = f.add(0, 1, Fixture::link(0, 1, 2.0));
-  const int32_t two = f.add(0, 1, Fixture::link(0, 1, 3.0));
+  LoopFixture f;
+  const int32_t one = f.add(0, 1, LoopFixture::link(0, 1, 2.0));
+  const int32_t two = f.add(0, 1, LoopFixture::link(0, 1, 3.0));
   CHECK(f.loop(one).loop_edge == f.loop(two).loop_edge);
   const LoopEdge& edge = f.edges[f.loop(one).loop_edge];
   CHECK(edge.loops == 2);
@@ -70,30 +71,30 @@ TEST_CASE("a loop that says the same joins the edge and adds its information") {
 }
 
 TEST_CASE("a loop that says something else, or is suspended, has an edge of its own") {
-  Fixture f;
-  const int32_t one = f.add(0, 1, Fixture::link(0, 1, 2.0));
-  CHECK(f.loop(f.add(0, 1, Fixture::link(0, 1, 2.0, 4.0))).loop_edge != f.loop(one).loop_edge);
-  CHECK(f.loop(f.add(0, 1, Fixture::link(0, 1, 2.0), true)).loop_edge != f.loop(one).loop_edge);
+  LoopFixture f;
+  const int32_t one = f.add(0, 1, LoopFixture::link(0, 1, 2.0));
+  CHECK(f.loop(f.add(0, 1, LoopFixture::link(0, 1, 2.0, 4.0))).loop_edge != f.loop(one).loop_edge);
+  CHECK(f.loop(f.add(0, 1, LoopFixture::link(0, 1, 2.0), true)).loop_edge != f.loop(one).loop_edge);
   CHECK(f.watch.suspended() == 1);
   CHECK(f.edges.full());
 }
 
 TEST_CASE("the weakest is the less sure of the two that join most nearly the same places") {
-  Fixture f;
+  LoopFixture f;
   CHECK(f.weakest() == -1);
   CHECK(f.edges.empty());
   f.order[f.at(1)] = 1;  // nearer to node 0 than the others are to each other
-  f.add(0, 3, Fixture::link(0, 3, 5.0));
-  const int32_t unsure = f.add(1, 3, Fixture::link(1, 3, 1.0));
-  f.add(0, 2, Fixture::link(0, 2, 0.1));
+  f.add(0, 3, LoopFixture::link(0, 3, 5.0));
+  const int32_t unsure = f.add(1, 3, LoopFixture::link(1, 3, 1.0));
+  f.add(0, 2, LoopFixture::link(0, 2, 0.1));
   CHECK(f.weakest() == f.loop(unsure).loop_edge);
 }
 
 TEST_CASE("a suspended loop is the first to go") {
-  Fixture f;
-  f.add(0, 3, Fixture::link(0, 3, 1.0));
-  f.add(1, 3, Fixture::link(1, 3, 1.0));
-  const int32_t suspended = f.add(0, 2, Fixture::link(0, 2, 9.0), true);
+  LoopFixture f;
+  f.add(0, 3, LoopFixture::link(0, 3, 1.0));
+  f.add(1, 3, LoopFixture::link(1, 3, 1.0));
+  const int32_t suspended = f.add(0, 2, LoopFixture::link(0, 2, 9.0), true);
   REQUIRE(f.weakest() == f.loop(suspended).loop_edge);
   f.edges.drop(f.weakest());
   CHECK(f.loop(suspended).removed);
@@ -104,12 +105,12 @@ TEST_CASE("a suspended loop is the first to go") {
 }
 
 TEST_CASE("edges that have come to join the same nodes are fused") {
-  Fixture f;
-  const int32_t one = f.add(0, 2, Fixture::link(0, 2, 1.0));
-  const int32_t two = f.add(1, 2, Fixture::link(0, 2, 1.0));
+  LoopFixture f;
+  const int32_t one = f.add(0, 2, LoopFixture::link(0, 2, 1.0));
+  const int32_t two = f.add(1, 2, LoopFixture::link(0, 2, 1.0));
   LoopEdge& moved = f.edges[f.loop(two).loop_edge];
   moved.edge =
-      replace_chain(f.walk.map, moved.edge, f.node(0), f.node(2), Fixture::link(0, 2, 1.0));
+      replace_chain(f.walk.map, moved.edge, f.node(0), f.node(2), LoopFixture::link(0, 2, 1.0));
   f.edges.fuse_at(f.node(0));
   CHECK(f.loop(one).loop_edge == f.loop(two).loop_edge);
   CHECK(f.edges[f.loop(one).loop_edge].loops == 2);
@@ -117,9 +118,9 @@ TEST_CASE("edges that have come to join the same nodes are fused") {
 }
 
 TEST_CASE("what ends at a node that goes is dropped") {
-  Fixture f;
-  const int32_t there = f.add(0, 3, Fixture::link(0, 3, 1.0));
-  const int32_t elsewhere = f.add(1, 2, Fixture::link(1, 2, 1.0));
+  LoopFixture f;
+  const int32_t there = f.add(0, 3, LoopFixture::link(0, 3, 1.0));
+  const int32_t elsewhere = f.add(1, 2, LoopFixture::link(1, 2, 1.0));
   f.edges.drop_at(f.node(3));
   CHECK(f.loop(there).removed);
   CHECK_FALSE(f.loop(elsewhere).removed);

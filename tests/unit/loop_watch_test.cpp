@@ -22,8 +22,8 @@ Sim3 shifted(double x) {
 }
 
 /// Two nodes and a condensed loop between them that says they are at the same place.
-struct Fixture {
-  Fixture() {
+struct WatchFixture {
+  WatchFixture() {
     MapWalk::require(walk.map.graph.add_node(NodeKind::kSkeleton, Sim3(), &a));
     MapWalk::require(walk.map.graph.add_node(NodeKind::kSkeleton, shifted(1.0), &b));
     const ChainLink link = {Sim3(), Mat7::Identity()};
@@ -50,7 +50,7 @@ struct Fixture {
 }  // namespace
 
 TEST_CASE("a loop is suspended when it misses the map time after time") {
-  Fixture f;
+  WatchFixture f;
   f.look(kPatience - 1);
   CHECK_FALSE(f.loop.health.suspended);
   CHECK(f.loop.health.norm == Approx(1.0));
@@ -64,7 +64,7 @@ TEST_CASE("a loop is suspended when it misses the map time after time") {
 }
 
 TEST_CASE("a loop that agrees in between starts anew") {
-  Fixture f;
+  WatchFixture f;
   f.look(kPatience - 1);
   f.put_b(0.0);
   f.look(1);
@@ -75,7 +75,7 @@ TEST_CASE("a loop that agrees in between starts anew") {
 }
 
 TEST_CASE("a suspended loop is tried when its time has come, and comes back where it agrees") {
-  Fixture f;
+  WatchFixture f;
   f.look(kPatience);
   f.put_b(0.0);
   f.look(kFirstWait - 1);
@@ -90,7 +90,7 @@ TEST_CASE("a suspended loop is tried when its time has come, and comes back wher
 }
 
 TEST_CASE("the wait of a loop that goes on missing the map doubles up to a limit") {
-  Fixture f;
+  WatchFixture f;
   f.look(kPatience);
   int32_t wait = kFirstWait;
   for (int32_t k = 0; k < 9; ++k) {

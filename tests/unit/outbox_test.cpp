@@ -10,8 +10,8 @@ using namespace unisim;
 
 namespace {
 
-struct Fixture {
-  Fixture()
+struct OutboxFixture {
+  OutboxFixture()
       : memory(65536),
         arena(memory.data(), memory.size()),
         keyframes(arena, 8),
@@ -38,7 +38,7 @@ struct Fixture {
 }  // namespace
 
 TEST_CASE("retired keyframes are offered in order, once, up to those that have not retired") {
-  Fixture f;
+  OutboxFixture f;
   Retired retired;
   for (int32_t id = 0; id < 4; ++id) {
     REQUIRE(f.outbox.next(f.keyframes, 4, &retired) == Status::kOk);
@@ -50,7 +50,7 @@ TEST_CASE("retired keyframes are offered in order, once, up to those that have n
 }
 
 TEST_CASE("a keyframe without a pose is passed over, a held one goes with the one that holds it") {
-  Fixture f;
+  OutboxFixture f;
   f.keyframes[0].owner = -1;
   f.keyframes[2].owner = -1;
   f.keyframes[2].held_from = 1;
@@ -65,7 +65,7 @@ TEST_CASE("a keyframe without a pose is passed over, a held one goes with the on
 }
 
 TEST_CASE("keyframes that are forgotten before they were fetched count as unread") {
-  Fixture f;
+  OutboxFixture f;
   f.keyframes[2].owner = -1;  // has no pose: nothing is lost
   Retired retired;
   REQUIRE(f.outbox.next(f.keyframes, 6, &retired) == Status::kOk);
@@ -76,7 +76,7 @@ TEST_CASE("keyframes that are forgotten before they were fetched count as unread
 }
 
 TEST_CASE("merges wait in a ring of their own, the oldest are lost") {
-  Fixture f;
+  OutboxFixture f;
   f.add_merges(0, 2);
   Retired retired;
   REQUIRE(f.outbox.next(f.keyframes, 0, &retired) == Status::kOk);

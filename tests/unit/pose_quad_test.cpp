@@ -19,12 +19,11 @@
 
 using namespace unisim;
 using unisim_test::difference;
+using unisim_test::kPi;
 using unisim_test::Random;
 using Dense = Eigen::Matrix<double, 7, 7>;
 
 namespace {
-
-const double kPi = std::acos(-1.0);
 
 // An edge with blocks of its own.
 struct TestEdge {

@@ -13,8 +13,8 @@ namespace {
 constexpr uint32_t kBoth = kRequestPair | kRequestWindow;
 
 /// Windows of four keyframes that share one.
-struct Fixture {
-  explicit Fixture(bool unit_by_next = false)
+struct ScheduleFixture {
+  explicit ScheduleFixture(bool unit_by_next = false)
       : memory(65536),
         arena(memory.data(), memory.size()),
         keyframes(arena, 32),
@@ -38,7 +38,7 @@ struct Fixture {
 }  // namespace
 
 TEST_CASE("the pair behind the last settled keyframe is asked for") {
-  Fixture f;
+  ScheduleFixture f;
   CHECK(f.requests.next(kBoth, &f.request) == Status::kNotReady);
   f.add_keyframes(3);
   f.keyframes.settle(1);
@@ -51,7 +51,7 @@ TEST_CASE("the pair behind the last settled keyframe is asked for") {
 }
 
 TEST_CASE("a window is asked for once its keyframes are settled, before newer pairs") {
-  Fixture f;
+  ScheduleFixture f;
   f.add_keyframes(5);
   f.keyframes.settle(2);
   CHECK(f.requests.next(kRequestWindow, &f.request) == Status::kNotReady);
@@ -66,7 +66,7 @@ TEST_CASE("a window is asked for once its keyframes are settled, before newer pa
 }
 
 TEST_CASE("where the next pair gives the unit a window waits for it, or for the end") {
-  Fixture f(true);
+  ScheduleFixture f(true);
   f.add_keyframes(4);
   f.keyframes.settle(3);
   int32_t index = -1;
@@ -83,7 +83,7 @@ TEST_CASE("where the next pair gives the unit a window waits for it, or for the 
 }
 
 TEST_CASE("closing cuts a window from what is left over") {
-  Fixture f;
+  ScheduleFixture f;
   f.add_keyframes(6);
   f.keyframes.settle(5);
   int32_t index = -1;
@@ -94,7 +94,7 @@ TEST_CASE("closing cuts a window from what is left over") {
 }
 
 TEST_CASE("windows over keyframes that have gone are given up oldest first") {
-  Fixture f;
+  ScheduleFixture f;
   f.add_keyframes(10);
   Window dropped;
   REQUIRE(f.requests.drop_before(4, &dropped));

@@ -39,7 +39,7 @@ TEST_CASE("nothing known adds nothing") {
     CHECK(both.log_metres == Approx(0.7));
     CHECK(both.information == Approx(50.0));
   }
-  CHECK_FALSE(fuse({}, {}).known());
+  CHECK_FALSE(fuse(ScaleEvidence{}, {}).known());
   CHECK_FALSE(all_of({}).known());
 }
 

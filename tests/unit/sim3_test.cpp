@@ -10,11 +10,10 @@
 using namespace unisim;
 using unisim_test::about_z;
 using unisim_test::difference;
+using unisim_test::kNan;
+using unisim_test::kPi;
 
-namespace {
-const double kPi = std::acos(-1.0);
-const double kNan = std::numeric_limits<double>::quiet_NaN();
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("a similarity scales, turns and shifts in this order") {
   const Sim3 T = about_z(kPi / 2, 10, 20, 30, 2);

@@ -7,10 +7,9 @@
 
 using namespace unisim;
 using unisim_test::difference;
+using unisim_test::kPi;
 
-namespace {
-const double kPi = std::acos(-1.0);
-}
+namespace {}
 
 TEST_CASE("hat is the cross product") {
   const Vec3 a(1, 2, 3);

@@ -10,7 +10,7 @@ using namespace unisim;
 
 namespace {
 
-struct Fixture {
+struct TableFixture {
   std::vector<unsigned char> memory = std::vector<unsigned char>(65536);
   Arena arena{memory.data(), memory.size()};
   SubmapTable table{arena, {4, 2, 3, 5, 8}};
@@ -19,7 +19,7 @@ struct Fixture {
 }  // namespace
 
 TEST_CASE("submaps are found by id after others were erased") {
-  Fixture f;
+  TableFixture f;
   for (int32_t id = 0; id < 20; ++id) {
     REQUIRE(f.table.has_room(false));
     REQUIRE(f.table.append(false, 2) == id);
@@ -41,7 +41,7 @@ TEST_CASE("submaps are found by id after others were erased") {
 }
 
 TEST_CASE("windows, loops and views have room of their own") {
-  Fixture f;
+  TableFixture f;
   f.table.append(true, 5);
   f.table.append(true, 5);
   CHECK_FALSE(f.table.has_room(true));
@@ -53,7 +53,7 @@ TEST_CASE("windows, loops and views have room of their own") {
 }
 
 TEST_CASE("keyframes of a submap stay known when its views are given back") {
-  Fixture f;
+  TableFixture f;
   const int32_t id = f.table.append(false, 2);
   f.table.set_keyframe(f.table[id], 0, 7);
   f.table.set_keyframe(f.table[id], 1, 9);
@@ -64,7 +64,7 @@ TEST_CASE("keyframes of a submap stay known when its views are given back") {
 }
 
 TEST_CASE("the id of a submap taken back is used again") {
-  Fixture f;
+  TableFixture f;
   f.table.append(false, 2);
   CHECK(f.table.append(true, 2) == 1);
   f.table.remove_last();
@@ -74,7 +74,7 @@ TEST_CASE("the id of a submap taken back is used again") {
 }
 
 TEST_CASE("what a submap shares is forgotten with it") {
-  Fixture f;
+  TableFixture f;
   REQUIRE(f.table.add_shared({0, 1, 0, 0, 0.0, -1, -1}));
   REQUIRE(f.table.add_shared({1, 2, 0, 0, 0.0, -1, -1}));
   REQUIRE(f.table.add_shared({2, 3, 0, 0, 0.0, -1, -1}));

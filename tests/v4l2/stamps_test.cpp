@@ -10,10 +10,10 @@ namespace {
 using v4l2::SequenceCount;
 using v4l2::StampClock;
 
-constexpr int64_t kSecond = 1'000'000'000;
-constexpr int64_t kPeriod = kSecond / 30;
-constexpr int64_t kNow = 5000 * kSecond;
-constexpr int64_t kWallClock = 1'700'000'000 * kSecond;
+constexpr int64_t kSecondNs = 1'000'000'000;
+constexpr int64_t kPeriod = kSecondNs / 30;
+constexpr int64_t kNow = 5000 * kSecondNs;
+constexpr int64_t kWallClock = 1'700'000'000 * kSecondNs;
 
 }  // namespace
 
@@ -29,13 +29,13 @@ TEST_CASE("a stamp of the wall clock is moved to the monotonic one, also when th
   auto stamp = clock.map(kWallClock - 20'000'000, {kNow, kWallClock}, kPeriod);
   CHECK(stamp.ns == kNow - 20'000'000);
   CHECK(stamp.measured);
-  const int64_t set_back = kWallClock - 3600 * kSecond;
+  const int64_t set_back = kWallClock - 3600 * kSecondNs;
   stamp = clock.map(set_back - 5'000'000, {kNow + kPeriod, set_back}, kPeriod);
   CHECK(stamp.ns == kNow + kPeriod - 5'000'000);
 }
 
 TEST_CASE("a stamp of no clock is replaced by the moment of arrival") {
-  for (const int64_t raw : {int64_t{0}, int64_t{17}, -5 * kSecond, kNow / 2, INT64_MAX / 2}) {
+  for (const int64_t raw : {int64_t{0}, int64_t{17}, -5 * kSecondNs, kNow / 2, INT64_MAX / 2}) {
     StampClock clock;
     const auto stamp = clock.map(raw, {kNow, kWallClock}, kPeriod);
     CHECK(stamp.ns == kNow);
@@ -56,9 +56,9 @@ TEST_CASE("stamps that repeat or go back grow by a period at most") {
   clock.map(first, {kNow, kWallClock}, kPeriod);
   auto stamp = clock.map(first, {kNow + kPeriod, kWallClock}, kPeriod);
   CHECK(stamp.ns == first + kPeriod);
-  stamp = clock.map(first - kSecond, {kNow + kPeriod + 5, kWallClock}, kPeriod);
+  stamp = clock.map(first - kSecondNs, {kNow + kPeriod + 5, kWallClock}, kPeriod);
   CHECK(stamp.ns == kNow + kPeriod + 5);
-  stamp = clock.map(first - kSecond, {kNow + kPeriod + 5, kWallClock}, kPeriod);
+  stamp = clock.map(first - kSecondNs, {kNow + kPeriod + 5, kWallClock}, kPeriod);
   CHECK(stamp.ns == kNow + kPeriod + 6);
 }
 
@@ -84,11 +84,11 @@ TEST_CASE("whatever stamps a camera gives, those of the frames grow and are not 
   int64_t (*const habits[])(int64_t now, uint32_t n) = {
       [](int64_t, uint32_t) { return int64_t{0}; },
       [](int64_t now, uint32_t) { return now + 30'000'000; },
-      [](int64_t now, uint32_t n) { return n % 3 == 0 ? now - kSecond : now; },
-      [](int64_t now, uint32_t) { return now / kSecond * kSecond; },
+      [](int64_t now, uint32_t n) { return n % 3 == 0 ? now - kSecondNs : now; },
+      [](int64_t now, uint32_t) { return now / kSecondNs * kSecondNs; },
       [](int64_t, uint32_t) { return INT64_MAX; },
-      [](int64_t, uint32_t) { return -kSecond; },
-      [](int64_t now, uint32_t) { return now + 1'700'000'000 * kSecond; },
+      [](int64_t, uint32_t) { return -kSecondNs; },
+      [](int64_t now, uint32_t) { return now + 1'700'000'000 * kSecondNs; },
   };
   for (const auto habit : habits) {
     CameraRun run;
@@ -103,7 +103,7 @@ TEST_CASE("whatever stamps a camera gives, those of the frames grow and are not 
       REQUIRE(run.next() == UNISIM_FRAME_OK);
       CHECK(run.frame.timestamp_ns > last_ns);
       CHECK(run.frame.timestamp_ns <= run.io.now_ns());
-      CHECK(run.frame.timestamp_ns > run.io.now_ns() - kSecond);
+      CHECK(run.frame.timestamp_ns > run.io.now_ns() - kSecondNs);
       last_ns = run.frame.timestamp_ns;
     }
   }
