@@ -181,7 +181,8 @@ typedef struct unisim_map_pose {
 /** Things worth knowing at the end of a run. */
 typedef struct unisim_predictor_info {
   double focal_px;       /**< last estimate, 0 if none */
-  double focal_sigma_px; /**< its standard deviation, 0 if not known */
+  double focal_sigma_px; /**< its standard deviation, what the camera model leaves out included;
+                            0: given, or not known */
   double radial_k1;      /**< undistorted = distorted (1 + k1 r^2), r in focal lengths; 0 if none */
   int64_t state_bytes;   /**< memory the predictor holds, 0 if not known */
   int32_t initialised;   /**< 0: never saw enough motion to start */

@@ -233,7 +233,7 @@ void info(unisim_predictor* predictor, unisim_predictor_info* out) {
   out->state_bytes = me->mapper->bytes() + me->predictions->bytes() + me->view.bytes();
   if (out->initialised == 0) return;
   out->focal_px = intrinsics.camera.focal_px;
-  out->focal_sigma_px = intrinsics.log_focal_sigma * intrinsics.camera.focal_px;
+  out->focal_sigma_px = intrinsics.focal_sigma() * intrinsics.camera.focal_px;
   out->radial_k1 = intrinsics.camera.k1;
   out->center_x_px = intrinsics.camera.cx - intrinsics.middle.x;
   out->center_y_px = intrinsics.camera.cy - intrinsics.middle.y;

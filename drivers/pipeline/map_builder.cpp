@@ -207,11 +207,12 @@ void MapBuilder::add_unit(const unisim_submap_unit& unit) {
 }
 
 /// While windows are asked for beside, a predictor cannot be asked; networks find theirs anyway.
-bool MapBuilder::focal_given() const {
-  if (parts_.predictor->concurrent_windows != 0) return false;
+double MapBuilder::focal_sigma() const {
+  constexpr double kUnknown = 0.1;
+  if (parts_.predictor->concurrent_windows != 0) return kUnknown;
   unisim_predictor_info now{};
   parts_.predictor->info(parts_.predictor, &now);
-  return now.focal_px > 0.0 && now.focal_sigma_px == 0.0;
+  return now.focal_px > 0.0 ? now.focal_sigma_px / now.focal_px : kUnknown;
 }
 
 /// How high a camera is over the ground says how long the unit of a window is that sees it.
@@ -226,15 +227,13 @@ void MapBuilder::take_height(int32_t submap_id, const unisim_window_prediction& 
   }
   // How well a height is known, and how far the body nods and sinks in.
   constexpr double kCommonSigma = 0.03;
-  // An estimated focal length makes the ground as much too low as it is too long; straight ahead it
-  // is hardly seen, whatever its own standard deviation says (kitti 06: 24 % for 1.7 %).
-  constexpr double kFocalSigma = 0.1;
   unisim_submap_unit unit{};
   unit.submap_id = submap_id;
   unit.source = UNISIM_METRIC_HEIGHT;
   unit.metres = parts_.camera_height / ground.height;
   unit.sigma = ground.sigma;
-  unit.common_sigma = focal_given() ? kCommonSigma : std::hypot(kCommonSigma, kFocalSigma);
+  // A focal length that is too long makes the ground as much too low.
+  unit.common_sigma = std::hypot(kCommonSigma, focal_sigma());
   add_unit(unit);
 }
 

@@ -120,7 +120,8 @@ class MapBuilder {
   void take_unit(int32_t submap_id, const unisim_window_prediction& window);
   void take_height(int32_t submap_id, const unisim_window_prediction& window);
   void add_unit(const unisim_submap_unit& unit);
-  bool focal_given() const;
+  /// Over the focal length; 0: given.
+  double focal_sigma() const;
   Step take_window(const unisim_request& request, const unisim_window_prediction& window,
                    bool* pending);
   bool wants_wide_window() const;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "drivers/pipeline/check_tables.hpp"
+#include "drivers/pipeline/focal_doubt.hpp"
 #include "drivers/pipeline/frame_reader.hpp"
 #include "drivers/pipeline/localiser.hpp"
 #include "drivers/pipeline/map_builder.hpp"
@@ -65,6 +66,7 @@ class Pipeline::Impl {
   void end(Outcome outcome, const std::string& message);
   void tell_progress();
   void tell_no_start();
+  void tell_focal_doubt();
 
   Options options_;
   unisim_source* source_;
@@ -87,6 +89,7 @@ class Pipeline::Impl {
   int32_t early_ = -1;                  // keyframe whose frame's pose was given out before
   bool ending_ = false;
   StartWatch start_;
+  FocalWatch focal_;
 };
 
 Preparation Pipeline::Impl::prepare() {
@@ -285,6 +288,8 @@ bool Pipeline::Impl::take_keyframe(const unisim_frame& frame) {
   for (Listener* listener : listeners_) listener->on_keyframe(id, frame);
   const bool goes_on = went_well(builder_->serve_pairs());
   give_out_live();
+  const bool may_ask = predictor_->concurrent_windows == 0;  // see tell_no_start()
+  if (may_ask && focal_.due(result_.progress.keyframes)) tell_focal_doubt();
   return goes_on;
 }
 
@@ -340,6 +345,13 @@ void Pipeline::Impl::tell_no_start() {
   if (info.no_start != nullptr) messages_.say(info.no_start);
 }
 
+void Pipeline::Impl::tell_focal_doubt() {
+  unisim_predictor_info info{};
+  predictor_->info(predictor_, &info);
+  const std::string doubt = focal_doubt(info);
+  if (!doubt.empty()) messages_.say(doubt);
+}
+
 void Pipeline::Impl::give_out(const LivePose& pose) {
   start_.note_pose();
   result_.progress.metre = pose.metre;
@@ -363,6 +375,7 @@ void Pipeline::Impl::finish() {
   }
   give_out_live();
   tell_progress();
+  tell_focal_doubt();
 }
 
 bool Pipeline::Impl::went_well(Step step) {

@@ -155,6 +155,46 @@ TEST_CASE("posterior of the intrinsics agrees with a dense covariance") {
   REQUIRE(precision.k1_sigma == Approx(k1 * precision.residual_sigma).epsilon(1e-3));
 }
 
+namespace {
+
+BundlePrecision adjusted_precision(bool slides, double focal_prior) {
+  bundle_scene::Options options;
+  options.cameras = 12;
+  options.points = 200;
+  options.noise_px = 0.3;
+  options.slides_along_wall = slides;
+  const bundle_scene::Scene scene = bundle_scene::make(options);
+  BundleProblem problem(bundle_scene::capacity(scene));
+  bundle_scene::fill(scene, 1, &problem);
+  problem.intrinsics.free_focal = true;
+  problem.intrinsics.log_focal_mean = problem.intrinsics.log_focal;
+  problem.intrinsics.log_focal_sigma = focal_prior;
+  BundleAdjuster adjuster(problem.capacity());
+  adjuster.solve(&problem, BundleOptions{});
+  return adjuster.precision(problem, BundleOptions{}, nullptr, 0);
+}
+
+}  // namespace
+
+TEST_CASE("a camera that turns among things tells how long its focal length is") {
+  const BundlePrecision precision = adjusted_precision(false, 0.0);
+  REQUIRE(precision.valid);
+  CHECK(precision.log_focal_reach > precision.log_focal_sigma);
+  CHECK(precision.log_focal_reach < 0.05);
+}
+
+TEST_CASE("one that slides along a wall does not, and knows it") {
+  const BundlePrecision precision = adjusted_precision(true, 0.0);
+  REQUIRE(precision.valid);
+  CHECK(precision.log_focal_reach > 1.0);
+}
+
+TEST_CASE("what is only believed of a focal length stays as uncertain as it was believed") {
+  const BundlePrecision precision = adjusted_precision(true, 0.3);
+  REQUIRE(precision.valid);
+  CHECK(precision.log_focal_reach == Approx(0.3).epsilon(0.1));
+}
+
 TEST_CASE("residual_sigma is the noise of the pixels, outliers or not") {
   bundle_scene::Options options;
   options.noise_px = 0.7;

@@ -24,6 +24,7 @@ struct Options {
   double focal_px = 525.0;
   double k1 = -0.03;
   unsigned seed = 1;
+  bool slides_along_wall = false;  ///< no turn, straight path, all points in one plane ahead
 };
 
 struct Observation {
@@ -69,13 +70,18 @@ inline Scene make(const Options& options) {
     CameraPose pose;
     pose.R = unisim::geometric::rotation_exp(
         Eigen::Vector3d(0.05 * std::sin(3 * a), -0.5 * a, 0.1 * std::sin(2 * a)));
-    const Eigen::Vector3d center(0.9 * a, 0.15 * std::sin(4 * a), 0.2 * a * a);
+    Eigen::Vector3d center(0.9 * a, 0.15 * std::sin(4 * a), 0.2 * a * a);
+    if (options.slides_along_wall) {
+      pose.R.setIdentity();
+      center = Eigen::Vector3d(0.9 * a, 0.3 * a, 0.0);
+    }
     pose.t = -(pose.R * center);
     scene.poses.push_back(pose);
   }
   while (static_cast<int>(scene.points.size()) < options.points) {
     const Eigen::Vector3d r = uniform3(&random);
-    const Eigen::Vector3d point(0.3 + 1.6 * r.x(), 1.0 * r.y(), 2.2 + 0.8 * r.z());
+    const double depth = options.slides_along_wall ? 2.2 : 2.2 + 0.8 * r.z();
+    const Eigen::Vector3d point(0.3 + 1.6 * r.x(), 1.0 * r.y(), depth);
     const std::size_t before = scene.observations.size();
     for (int c = 0; c < options.cameras; ++c) {
       Eigen::Vector2d pixel;

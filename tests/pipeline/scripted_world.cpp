@@ -128,6 +128,9 @@ ScriptedPredictor::ScriptedPredictor() {
     *out = {};
     out->initialised = why.empty() ? 1 : 0;
     out->no_start = why.empty() ? nullptr : why.c_str();
+    if (!why.empty()) return;
+    out->focal_px = 500.0;
+    out->focal_sigma_px = self(p)->focal_sigma_px;
   };
   t.message = [](unisim_predictor* p) { return self(p)->message_.c_str(); };
   t.window_message = t.message;

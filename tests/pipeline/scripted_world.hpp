@@ -86,6 +86,7 @@ class ScriptedPredictor {
   /// Called before a window is answered, with its first keyframe, on whatever thread asks.
   std::function<void(int32_t)> before_window;
   std::string no_start;                ///< what info() says of a run without a start
+  double focal_sigma_px = 0.0;         ///< what info() says of a focal length of 500; 0: given
   double flow = 0.0;                   ///< what observe() reports per frame since the last keyframe
   std::map<int64_t, int32_t> reasons;  ///< UNISIM_REASON_* that observe() gives, by frame
   std::vector<int64_t> keyframes;      ///< frame indices as told by keyframe()

@@ -97,10 +97,9 @@ void add_figures(const Run& run, report::ReportData* page) {
     page->figures.push_back(
         {"ATE, live poses", millimetres(scores.live->error.rmse), "as first given out"});
   }
-  const bool given = run.options.settings.geometric.focal_px > 0.0;
   if (run.result.predictor.focal_px > 0.0) {
-    page->figures.push_back({"focal length", text("%.1f px", run.result.predictor.focal_px),
-                             given ? "given" : "estimated"});
+    page->figures.push_back(
+        {"focal length", text("%.1f px", run.result.predictor.focal_px), focal_source(run)});
   }
   const SegmentScale* known = run.data.main_scale();
   if (known != nullptr) {

@@ -200,48 +200,57 @@ Json summary_json(const Run& run) {
   const pipeline::Progress& progress = run.result.progress;
   const double focal = run.result.predictor.focal_px;
   const SegmentScale* known = run.data.main_scale();
-  return {{"schema", 1},
-          {"version", version_text()},
-          {"sequence", run.options.sequence},
-          {"format", run.format},
-          {"protocol", protocol_json(run)},
-          {"outcome", outcome_name(run.result.outcome)},
-          {"frames", progress.frames},
-          {"frames_bad", progress.frames_bad},
-          {"frames_dropped", progress.frames_dropped},
-          {"keyframes", info.keyframes},
-          {"submaps", info.submaps},
-          {"loops", loops_json(run)},
-          {"ate_rmse_m", rmse_of(scores.ate)},
-          {"ate_live_rmse_m", rmse_of(scores.live)},
-          {"rpe_trans_rmse_m", scores.rpe ? Json(scores.rpe->translation.rmse) : Json(nullptr)},
-          {"unit", run.data.metric ? "metric" : "relative"},
-          {"metres_per_unit", known != nullptr ? Json(known->metres_per_unit) : Json(nullptr)},
-          {"scale_sigma", known != nullptr ? Json(known->sigma) : Json(nullptr)},
-          {"segment_scales", scales_json(run.data)},
-          {"distances", distances_json(run.data)},
-          {"scale", scores.ate ? Json(scores.ate->T_truth_estimate.s) : Json(nullptr)},
-          {"score_problem", run.scores.problem.empty() ? Json(nullptr) : Json(run.scores.problem)},
-          {"coverage", coverage(run.data)},
-          {"keyframes_unposed", info.keyframes - info.posed_keyframes},
-          {"lost_events", info.lost_events},
-          {"frame_reasons", reasons_json(run.result)},
-          {"relocalised", run.result.predictor.relocalised},
-          {"segments_joined", run.result.predictor.joined},
-          {"segment_scores", segments_json(run.scores)},
-          {"segments", info.segments},
-          {"map_loaded", map_json(run.options.load_map)},
-          {"map_saved", map_json(run.options.save_map)},
-          {"pairs_refused", info.pairs_refused},
-          {"submaps_refused", info.submaps_refused},
-          {"focal_px", focal > 0.0 ? Json(focal) : Json(nullptr)},
-          {"principal_offset_px", principal_json(run.result.predictor)},
-          {"readout_ms", run.result.predictor.readout_ms},
-          {"lanes", lanes_json(run.result.lanes)},
-          {"memory", memory_json(run)},
-          {"timing_ms", timing_json(run.result.times)},
-          {"wall_s", run.result.wall_s},
-          {"fps", frames_per_second(run.result)}};
+  return {
+      {"schema", 1},
+      {"version", version_text()},
+      {"sequence", run.options.sequence},
+      {"format", run.format},
+      {"protocol", protocol_json(run)},
+      {"outcome", outcome_name(run.result.outcome)},
+      {"frames", progress.frames},
+      {"frames_bad", progress.frames_bad},
+      {"frames_dropped", progress.frames_dropped},
+      {"keyframes", info.keyframes},
+      {"submaps", info.submaps},
+      {"loops", loops_json(run)},
+      {"ate_rmse_m", rmse_of(scores.ate)},
+      {"ate_live_rmse_m", rmse_of(scores.live)},
+      {"rpe_trans_rmse_m", scores.rpe ? Json(scores.rpe->translation.rmse) : Json(nullptr)},
+      {"unit", run.data.metric ? "metric" : "relative"},
+      {"metres_per_unit", known != nullptr ? Json(known->metres_per_unit) : Json(nullptr)},
+      {"scale_sigma", known != nullptr ? Json(known->sigma) : Json(nullptr)},
+      {"segment_scales", scales_json(run.data)},
+      {"distances", distances_json(run.data)},
+      {"scale", scores.ate ? Json(scores.ate->T_truth_estimate.s) : Json(nullptr)},
+      {"score_problem", run.scores.problem.empty() ? Json(nullptr) : Json(run.scores.problem)},
+      {"coverage", coverage(run.data)},
+      {"keyframes_unposed", info.keyframes - info.posed_keyframes},
+      {"lost_events", info.lost_events},
+      {"frame_reasons", reasons_json(run.result)},
+      {"relocalised", run.result.predictor.relocalised},
+      {"segments_joined", run.result.predictor.joined},
+      {"segment_scores", segments_json(run.scores)},
+      {"segments", info.segments},
+      {"map_loaded", map_json(run.options.load_map)},
+      {"map_saved", map_json(run.options.save_map)},
+      {"pairs_refused", info.pairs_refused},
+      {"submaps_refused", info.submaps_refused},
+      {"focal_px", focal > 0.0 ? Json(focal) : Json(nullptr)},
+      {"focal_sigma_px", focal > 0.0 ? Json(run.result.predictor.focal_sigma_px) : Json(nullptr)},
+      {"principal_offset_px", principal_json(run.result.predictor)},
+      {"readout_ms", run.result.predictor.readout_ms},
+      {"lanes", lanes_json(run.result.lanes)},
+      {"memory", memory_json(run)},
+      {"timing_ms", timing_json(run.result.times)},
+      {"wall_s", run.result.wall_s},
+      {"fps", frames_per_second(run.result)}};
+}
+
+std::string focal_source(const Run& run) {
+  if (run.options.settings.geometric.focal_px > 0.0) return "given";
+  const unisim_predictor_info& info = run.result.predictor;
+  if (!(info.focal_sigma_px > 0.0)) return "estimated";
+  return text("estimated +- %.1f %%", 100.0 * info.focal_sigma_px / info.focal_px);
 }
 
 std::string summary_text(const Run& run, const std::vector<std::string>& files) {
@@ -264,9 +273,9 @@ std::string summary_text(const Run& run, const std::vector<std::string>& files) 
   } else if (!run.data.scales.empty()) {
     out += "relative: only some of the segments have a known scale\n";
   }
-  const char* how = run.options.settings.geometric.focal_px > 0.0 ? "given" : "estimated";
   if (result.predictor.focal_px > 0.0) {
-    out += text("focal length %.1f px (%s), ", result.predictor.focal_px, how);
+    out +=
+        text("focal length %.1f px (%s), ", result.predictor.focal_px, focal_source(run).c_str());
   }
   if (result.predictor.readout_ms != 0) {
     const bool told = run.options.settings.geometric.readout_ms != 0;

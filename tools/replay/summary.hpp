@@ -30,6 +30,9 @@ double coverage(const RunData& data);
 /// "every 5" or "by motion".
 std::string keyframe_choice(const Options& options);
 
+/// Where the focal length comes from: "given", "estimated", "estimated +- 2.8 %".
+std::string focal_source(const Run& run);
+
 /// Most memory the process has held.
 int64_t process_peak_bytes();
 

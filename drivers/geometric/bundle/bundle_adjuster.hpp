@@ -47,7 +47,8 @@ struct BundlePrecision {
   bool valid = false;
   double center_sigma = 0.0;     ///< see BundleAdjuster::precision()
   double log_focal_sigma = 0.0;  ///< posterior standard deviation, prior included; 0 when held
-  double k1_sigma = 0.0;         ///< the same
+  double log_focal_reach = 0.0;  ///< the same with what the model leaves out
+  double k1_sigma = 0.0;         ///< posterior standard deviation, as log_focal_sigma
   double readout_sigma_s = 0.0;  ///< the same
   double residual_sigma =
       0.0;  ///< robust standard deviation of one residual component, scaled pixels
@@ -83,6 +84,9 @@ class BundleAdjuster {
   /// out, times residual_sigma, over median_depth. Independent of the gauge the problem was solved
   /// in. log_focal_sigma and k1_sigma: posterior of the whole problem times residual_sigma; a freed
   /// intrinsic that the data do not see comes out at its prior sigma (or very large without prior).
+  /// These take residuals for independent. What the model leaves out (of the lens, rows that are
+  /// read one after the other, tracks that drift together) pushes all one way: log_focal_reach is
+  /// how far the focal length can go for a hundredth of the cost, all else adjusted along.
   ///
   /// Cost: a factorisation, then 3 * count triangular solves; a window of a large map is best put
   /// into a problem of its own (1 ms for 16 cameras).

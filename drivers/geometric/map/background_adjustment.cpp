@@ -12,6 +12,7 @@ namespace {
 constexpr double kTolerance = 1e-4;
 constexpr size_t kMinRatios = 5;
 constexpr size_t kSpreadViews = 16;  // of a wide window
+constexpr size_t kLeastCenters = 3;  // whose precision can be told
 constexpr size_t kJoinedViews = 4;   // of them, in a segment that has been joined
 
 void append_evenly(const std::vector<int32_t>& from, size_t views, std::vector<int32_t>* out) {
@@ -70,8 +71,9 @@ void BackgroundAdjustment::work() {
   usable_ = result.status == BundleStatus::kConverged ||
             result.status == BundleStatus::kIterationCap ||
             result.status == BundleStatus::kNoDescent;
-  const BundlePrecision precision = adjustment_.precision(spread_.data(), spread_.size());
-  log_focal_sigma_ = precision.valid ? precision.log_focal_sigma : 0;
+  const size_t views = spread_.size() < kLeastCenters ? 0 : spread_.size();
+  const BundlePrecision precision = adjustment_.precision(spread_.data(), views);
+  log_focal_sigma_ = precision.valid ? precision.log_focal_reach : 0;
   spread_sigma_ = precision.valid ? precision.center_sigma : 0;
 }
 

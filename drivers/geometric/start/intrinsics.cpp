@@ -43,6 +43,11 @@ Intrinsics Intrinsics::start(const cv::Size& size, double focal_px, bool k1_know
   return out;
 }
 
+double Intrinsics::focal_sigma() const {
+  if (focal_known) return 0.0;
+  return log_focal_sigma > 0.0 ? log_focal_sigma : kStartSigma;
+}
+
 bool Intrinsics::k1_observable() const { return turned_rad >= kK1MinRotation; }
 
 bool Intrinsics::center_observable() const { return turned_rad >= kCenterMinRotation; }

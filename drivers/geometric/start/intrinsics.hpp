@@ -33,6 +33,8 @@ struct Intrinsics {
   /// @param focal_px known focal length or 0
   static Intrinsics start(const cv::Size& size, double focal_px, bool k1_known = false,
                           bool center_known = false);
+  /// Of log focal length: 0 where it is given, that of the guess until it has been measured.
+  double focal_sigma() const;
   bool k1_observable() const;
   bool center_observable() const;
   bool readout_observable() const;
