@@ -105,6 +105,13 @@ endfunction()
 # cannot say it: that of Catch2 2 is the number of failures.
 function(unisim_add_tests label)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  # CTest would make two tests of such a name that run nothing and pass.
+  foreach(source IN LISTS sources)
+    file(STRINGS ${source} names REGEX "TEST_CASE\\(\"[^\"]*;")
+    if(names)
+      message(FATAL_ERROR "${source}: a name of a test has a semicolon: ${names}")
+    endif()
+  endforeach()
   add_executable(unisim-test-${label} ${sources})
   unisim_test_program(unisim-test-${label} "${label}: " ${label} ${ARGN})
 endfunction()

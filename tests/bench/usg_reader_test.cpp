@@ -40,7 +40,7 @@ const std::string kNodes = "node 0 T 1 0 0 0 1 0 0 0 1\nnode 1 T 0 0 0 0 1 0 0 0
 
 }  // namespace
 
-TEST_CASE("nodes keep kind, hold, pose; quaternions come out with length 1") {
+TEST_CASE("nodes keep kind, hold and pose, and quaternions come out with length 1") {
   const PoseGraph graph = graph_of(kGraph);
   REQUIRE(graph.nodes.size() == 4);
   CHECK(graph.nodes[0].fixed);

@@ -73,7 +73,7 @@ TEST_CASE("messages go out whole and in order") {
   for (int k = 0; k < 2000; ++k) REQUIRE(sent[static_cast<size_t>(k)] == message(k));
 }
 
-TEST_CASE("a network that does not move holds nobody; the newest messages wait for it") {
+TEST_CASE("a network that does not move holds nobody, and the newest messages wait for it") {
   Gate gate;
   SendCounts counts;
   {

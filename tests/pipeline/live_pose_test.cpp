@@ -65,7 +65,7 @@ TEST_CASE("each keyframe has its pose in the map told once, after the pose of it
   }
 }
 
-TEST_CASE("of a camera, poses of frames before the start are late; of a replay none is") {
+TEST_CASE("of a camera, poses of frames before the start are late, and of a replay none is") {
   const bool live = GENERATE(false, true);
   Run run;
   run.options.every_frame = true;

@@ -156,7 +156,7 @@ TEST_CASE("euroc: a csv in any spelling gives the same images and times") {
   REQUIRE(answers[1].pixel == 2);
 }
 
-TEST_CASE("euroc: names that are times may be in seconds; other names are counted") {
+TEST_CASE("euroc: names that are times may be in seconds, and other names are counted") {
   const TempFolder folder;
   write_image(folder, "mav0/cam0/data/1403715273.262142.png", 1);
   write_image(folder, "mav0/cam0/data/1403715273.312143.png", 2);

@@ -23,7 +23,7 @@ std::string mask_text(int width, int height) {
 
 }  // namespace
 
-TEST_CASE("a mask hides a part of the frames; one that does not fit is refused") {
+TEST_CASE("a mask hides a part of the frames, and one that does not fit is refused") {
   const TempFolder folder;
   const auto run_masked = [&](const std::string& mask, std::vector<std::string> more) {
     write_file(folder / "mask.pgm", mask);

@@ -115,7 +115,7 @@ TEST_CASE("a measurement can be replaced only by one of its kind") {
   CHECK(graph->set_log_ratio(pose, 0.0) == Status::kInvalidArgument);
 }
 
-TEST_CASE("cost is the robust cost of the whitened norm; suspended edges do not count") {
+TEST_CASE("cost is the robust cost of the whitened norm, and suspended edges do not count") {
   CarvedGraph graph({2, 2, 1});
   const int32_t a = node(*graph, 0);
   const int32_t b = node(*graph, 3);
