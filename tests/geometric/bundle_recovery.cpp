@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "drivers/geometric/bundle/bundle_adjuster.hpp"
+#include "drivers/geometric/bundle/world_move.hpp"
 #include "tests/geometric/bundle_scene.hpp"
 #include "tests/support/catch.hpp"
 
@@ -115,7 +116,31 @@ TEST_CASE("bundle adjustment finds how long the rows of an image take") {
   CHECK(precision.readout_sigma_s < 0.001);
 }
 
-TEST_CASE("with no camera fixed the first is held and the unit of the start survives") {
+// As when a loop closes at the end of a run: what only the first camera saw before pulls on it
+// alone.
+TEST_CASE("with no camera fixed the first one goes along when the others move far") {
+  const bundle_scene::Scene scene = bundle_scene::make({});
+  BundleProblem problem(bundle_scene::capacity(scene));
+  bundle_scene::fill(scene, 0, &problem);
+  WorldMove away;
+  away.R = rotation_exp(Eigen::Vector3d(0.1, 0.9, -0.2));
+  away.t = Eigen::Vector3d(0.6, -0.3, 0.8);
+  away.scale = 0.7;
+  for (int i = 1; i < problem.camera_count(); ++i) {
+    problem.camera(i).pose = away.apply(problem.camera(i).pose);
+  }
+  for (int i = 0; i < problem.point_count(); ++i) {
+    problem.point(i).position = away.apply(problem.point(i).position);
+  }
+  BundleAdjuster adjuster(problem.capacity());
+  BundleOptions options = thorough();
+  options.huber = 1.0;
+  const BundleResult result = adjuster.solve(&problem, options);
+  CHECK(result.final_cost < 1e-6);
+  CHECK(problem.camera(0).pose.t == scene.poses[0].t);
+}
+
+TEST_CASE("with no camera fixed the first stays where it was and the unit of the start survives") {
   const bundle_scene::Scene scene = bundle_scene::make({});
   BundleProblem problem(bundle_scene::capacity(scene));
   bundle_scene::fill(scene, 0, &problem);

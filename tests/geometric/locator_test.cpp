@@ -14,7 +14,7 @@ namespace unisim::geometric::test {
 
 namespace {
 
-constexpr int kStride = 2;
+constexpr int kKeyframeStride = 2;
 constexpr int kSteps = 40;    // of the walk that is looked for
 constexpr int kBehind = 160;  // of a walk that sees the other half of the room
 
@@ -31,11 +31,12 @@ MapBytes map_of_both() {
   unisim_geometric_config config = default_config();
   config.focal_px = kFocal;
   PredictorRun run(config);
-  for (int step = 0; step < kSteps; ++step) run.show(render_room(walk(step)), step % kStride == 0);
+  for (int step = 0; step < kSteps; ++step)
+    run.show(render_room(walk(step)), step % kKeyframeStride == 0);
   const GrayImage black(static_cast<size_t>(kWidth) * kHeight, 0);
-  for (int k = 0; k < 30; ++k) run.show(black, k % kStride == 0);
+  for (int k = 0; k < 30; ++k) run.show(black, k % kKeyframeStride == 0);
   for (int step = 0; step < kBehind; ++step) {
-    run.show(render_room(behind(step)), step % kStride == 0);
+    run.show(render_room(behind(step)), step % kKeyframeStride == 0);
   }
   REQUIRE(run.table()->finish(run.table()) == UNISIM_PREDICTION_OK);
   REQUIRE(run.info().restarts == 1);
@@ -49,7 +50,7 @@ int spoil_descriptors(MapBytes* map) {
   OrbFeatureSet features;
   std::array<int8_t, kVladSize> descriptor{};
   int spoilt = 0;
-  for (int step = 0; step < kSteps; step += kStride) {
+  for (int step = 0; step < kSteps; step += kKeyframeStride) {
     GrayImage image = render_room(walk(step));
     orb.describe(cv::Mat(kHeight, kWidth, CV_8UC1, image.data()), &features);
     REQUIRE(describe_image(features.descriptor, descriptor.data()));
@@ -78,7 +79,7 @@ TEST_CASE("a frame that its likeliest places do not show is looked for in the ne
   int frames = 1;
   while (locate(run.table(), image, &location) != UNISIM_PREDICTION_OK && frames < 5) ++frames;
   CHECK(frames == (spoil ? 2 : 1));
-  CHECK(location.keyframe_id < kSteps / kStride);
+  CHECK(location.keyframe_id < kSteps / kKeyframeStride);
 }
 
 }  // namespace unisim::geometric::test

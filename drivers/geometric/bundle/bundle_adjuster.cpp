@@ -6,6 +6,7 @@
 
 #include "drivers/geometric/bundle/bundle_workspace.hpp"
 #include "drivers/geometric/bundle/reduced_system.hpp"
+#include "drivers/geometric/bundle/world_move.hpp"
 
 namespace unisim::geometric {
 namespace {
@@ -53,6 +54,20 @@ bool valid(const BundleProblem& problem, const BundleOptions& options) {
   return true;
 }
 
+/// Moves all so that the first camera is where it was.
+void bring_back(const CameraPose& first, BundleProblem* problem) {
+  const WorldMove move = WorldMove::between(problem->camera(0).pose, first, 1.0);
+  for (int i = 0; i < problem->camera_count(); ++i) {
+    CameraPose& pose = problem->camera(i).pose;
+    pose = move.apply(pose);
+  }
+  problem->camera(0).pose = first;
+  for (int i = 0; i < problem->point_count(); ++i) {
+    Eigen::Vector3d& position = problem->point(i).position;
+    position = move.apply(position);
+  }
+}
+
 }  // namespace
 
 BundleAdjuster::BundleAdjuster(const BundleCapacity& capacity)
@@ -62,16 +77,19 @@ BundleAdjuster::BundleAdjuster(const BundleCapacity& capacity)
 
 BundleAdjuster::~BundleAdjuster() = default;
 
-BundleStatus BundleAdjuster::prepare(const BundleProblem& problem, const BundleOptions& options) {
+BundleStatus BundleAdjuster::prepare(const BundleProblem& problem, const BundleOptions& options,
+                                     bool hold_first) {
   if (!fits(problem, capacity_)) return BundleStatus::kTooLarge;
   if (!valid(problem, options)) return BundleStatus::kInvalidInput;
-  return system_->layout(problem) ? BundleStatus::kIterationCap : BundleStatus::kNothingToDo;
+  return system_->layout(problem, hold_first) ? BundleStatus::kIterationCap
+                                              : BundleStatus::kNothingToDo;
 }
 
 BundleResult BundleAdjuster::solve(BundleProblem* problem, const BundleOptions& options) {
   BundleResult result;
-  result.status = prepare(*problem, options);
+  result.status = prepare(*problem, options, false);
   if (result.status != BundleStatus::kIterationCap) return result;
+  const CameraPose first = problem->camera(0).pose;
 
   result.lambda = options.initial_lambda;
   result.initial_cost = system_->cost(*problem, options);
@@ -81,6 +99,7 @@ BundleResult BundleAdjuster::solve(BundleProblem* problem, const BundleOptions& 
     ++result.iterations;
     result.status = iterate(problem, options, &result);
   }
+  if (!problem->any_fixed()) bring_back(first, problem);
   return result;
 }
 

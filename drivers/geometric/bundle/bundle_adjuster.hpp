@@ -60,10 +60,11 @@ struct BundlePrecision {
 /// a large constant and pull on nothing; points with fewer than two usable observations are left as
 /// they are.
 ///
-/// Gauge: fixed cameras hold it. When none is fixed, the first camera is held for the solve. Scale,
-/// where fewer than two centres are fixed, is left to the damping: the step has no component along
-/// it to first order, so the unit of the start survives; a caller who needs an exact unit rescales
-/// afterwards.
+/// Gauge: fixed cameras hold it. What they leave open is left to the damping: the step has no
+/// component along it to first order, so the unit of the start survives; a caller who needs an
+/// exact unit rescales afterwards. When none is fixed, all is moved back in the end so that the
+/// first camera is where it was. To hold it during the solve would be to leave it behind where a
+/// loop turns everything else by a large step: its observations then count as outliers.
 ///
 /// Single thread; same problem, same bytes out. Nothing allocates after construction.
 class BundleAdjuster {
@@ -104,7 +105,8 @@ class BundleAdjuster {
   struct Workspace;
   class CenterMap;
 
-  BundleStatus prepare(const BundleProblem& problem, const BundleOptions& options);
+  /// @param hold_first the first camera is fixed if no other is
+  BundleStatus prepare(const BundleProblem& problem, const BundleOptions& options, bool hold_first);
   BundleStatus iterate(BundleProblem* problem, const BundleOptions& options, BundleResult* result);
   double center_variance(const CenterMap& map);
   void measure_residuals(const BundleProblem& problem, const BundleOptions& options,

@@ -97,7 +97,7 @@ BundlePrecision BundleAdjuster::precision(const BundleProblem& problem,
                                           int count) {
   BundlePrecision out;
   if (count < 0 || count == 1 || count == 2 ||
-      prepare(problem, options) != BundleStatus::kIterationCap)
+      prepare(problem, options, true) != BundleStatus::kIterationCap)
     return out;
   for (int i = 0; i < count; ++i) {
     if (cameras[i] < 0 || cameras[i] >= problem.camera_count()) return out;

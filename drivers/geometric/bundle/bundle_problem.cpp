@@ -3,6 +3,7 @@
 // capacity.
 #include "drivers/geometric/bundle/bundle_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -44,6 +45,11 @@ int BundleProblem::add_camera(const CameraPose& pose, bool fixed) {
   if (!fixed) ++free_cameras_;
   cameras_.push_back({pose, fixed});
   return camera_count() - 1;
+}
+
+bool BundleProblem::any_fixed() const {
+  return std::any_of(cameras_.begin(), cameras_.end(),
+                     [](const BundleCamera& camera) { return camera.fixed; });
 }
 
 int BundleProblem::add_point(const Eigen::Vector3d& position_world) {

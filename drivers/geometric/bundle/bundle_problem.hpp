@@ -98,6 +98,7 @@ class BundleProblem {
   const BundleCapacity& capacity() const { return capacity_; }
   int camera_count() const { return static_cast<int>(cameras_.size()); }
   int free_camera_count() const { return free_cameras_; }
+  bool any_fixed() const;
   int point_count() const { return static_cast<int>(points_.size()); }
   int observation_count() const { return static_cast<int>(observations_.size()); }
 

@@ -37,16 +37,15 @@ ReducedSystem::ReducedSystem(const BundleCapacity& capacity) : matrix_(capacity.
   scratch_.resize(at(capacity.cameras));
 }
 
-bool ReducedSystem::layout(const BundleProblem& problem) {
+bool ReducedSystem::layout(const BundleProblem& problem, bool hold_first) {
   free_[0] = problem.intrinsics.free_focal;
   free_[1] = problem.intrinsics.free_k1;
   free_[2] = free_[3] = problem.intrinsics.free_center;
   free_[4] = problem.intrinsics.free_readout;
   camera_slots_ = 0;
-  int held = 0;
-  for (int i = 0; i < problem.camera_count(); ++i) held += problem.camera(i).fixed ? 1 : 0;
+  const bool none_fixed = !problem.any_fixed();
   for (int i = 0; i < problem.camera_count(); ++i) {
-    const bool hold = problem.camera(i).fixed || (held == 0 && i == 0);
+    const bool hold = problem.camera(i).fixed || (hold_first && none_fixed && i == 0);
     slots_[at(i)] = hold ? -1 : camera_slots_++;
   }
   int active = 0;

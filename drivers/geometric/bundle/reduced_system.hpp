@@ -27,8 +27,9 @@ class ReducedSystem {
   explicit ReducedSystem(const BundleCapacity& capacity);
 
   /// Gives slots to the unknowns and works out which blocks exist.
+  /// @param hold_first the first camera is fixed if no other is
   /// @return false when there is no free unknown or no point that can be adjusted
-  bool layout(const BundleProblem& problem);
+  bool layout(const BundleProblem& problem, bool hold_first);
 
   /// Robust cost of the present state: points that layout() took in, and priors.
   double cost(const BundleProblem& problem, const BundleOptions& options) const;

@@ -9,7 +9,7 @@
 #include "drivers/geometric/map/background_worker.hpp"
 #include "drivers/geometric/map/map_adjustment.hpp"
 #include "drivers/geometric/map/state.hpp"
-#include "drivers/geometric/map/world_move.hpp"
+#include "drivers/geometric/bundle/world_move.hpp"
 
 namespace unisim::geometric {
 

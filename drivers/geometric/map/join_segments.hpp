@@ -3,7 +3,7 @@
 #pragma once
 
 #include "drivers/geometric/map/state.hpp"
-#include "drivers/geometric/map/world_move.hpp"
+#include "drivers/geometric/bundle/world_move.hpp"
 
 namespace unisim::geometric {
 

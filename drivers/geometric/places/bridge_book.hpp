@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "drivers/geometric/map/world_move.hpp"
+#include "drivers/geometric/bundle/world_move.hpp"
 #include "drivers/geometric/places/place_finder.hpp"
 
 namespace unisim::geometric {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "drivers/geometric/map/world_move.hpp"
+#include "drivers/geometric/bundle/world_move.hpp"
 
 namespace unisim::geometric {
 
