@@ -22,6 +22,22 @@ void append_evenly(const std::vector<int32_t>& from, size_t views, std::vector<i
   }
 }
 
+/// Do most observations of a keyframe lie within the gate?
+bool fits(const State& state, const Keyframe& keyframe) {
+  int32_t seen = 0;
+  int32_t within = 0;
+  for (int32_t i = 0; i < keyframe.observations; ++i) {
+    const Observation& one = state.map.observation(keyframe.id, i);
+    if (one.landmark < 0 || one.outlier) continue;
+    const Landmark& mark = state.map.landmark(one.landmark);
+    if (mark.state != LandmarkState::kPlaced) continue;
+    ++seen;
+    const double error = reprojection_error(state, one, keyframe, mark.position);
+    within += error <= kInlierGate * state.pixel_scale ? 1 : 0;
+  }
+  return 2 * within >= seen;
+}
+
 }  // namespace
 
 BackgroundAdjustment::BackgroundAdjustment(const BundleCapacity& capacity, const MapCapacity& map,
@@ -143,7 +159,21 @@ void BackgroundAdjustment::take_loops(State* state) {
   }
 }
 
-bool BackgroundAdjustment::merge(State* state) {
+/// A keyframe that moved along no longer fits where the camera model has changed. Its observations
+/// would be culled, and without them it would hold its neighbours no more.
+void BackgroundAdjustment::pose_later(State* state, KeyframePose* poses) const {
+  const std::vector<int32_t>& ids = state->map.ids();
+  for (auto k = std::upper_bound(ids.begin(), ids.end(), keyframes_.back()); k != ids.end(); ++k) {
+    Keyframe& later = state->map.keyframe(*k);
+    if (!later.posed || later.segment != state->segment || fits(*state, later)) continue;
+    const FramePose found = poses->solve_old(*state, *k, later.pose);
+    if (!found.good) continue;
+    later.pose = found.pose;
+    mark_outliers(state, *k, 2 * kInlierGate);
+  }
+}
+
+bool BackgroundAdjustment::merge(State* state, KeyframePose* poses) {
   pending_ = false;
   worker_.wait();
   if (!usable_ || segment_ != state->segment || keyframes_.empty()) return false;
@@ -151,6 +181,7 @@ bool BackgroundAdjustment::merge(State* state) {
   move_rest(move_of_newest(*state), state);
   take(state);
   take_loops(state);
+  pose_later(state, poses);
   std::vector<int32_t>& all = keyframes_;
   all.clear();
   for (const int32_t k : state->map.ids()) {

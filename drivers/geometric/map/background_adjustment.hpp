@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "drivers/geometric/bundle/world_move.hpp"
 #include "drivers/geometric/map/background_worker.hpp"
+#include "drivers/geometric/map/keyframe_pose.hpp"
 #include "drivers/geometric/map/map_adjustment.hpp"
 #include "drivers/geometric/map/state.hpp"
-#include "drivers/geometric/bundle/world_move.hpp"
 
 namespace unisim::geometric {
 
@@ -35,10 +36,11 @@ class BackgroundAdjustment {
   /// @param joined keyframes of a segment that was joined to this one: spread() has some of them
   void start(const State& state, int32_t keyframe, int iterations,
              std::vector<LoopObservation>* loops, const std::vector<int32_t>& joined);
-  /// Waits for the result and takes it into the state; what was added meanwhile moves along.
+  /// Waits for the result and takes it into the state; what was added meanwhile moves along;
+  /// keyframes that do not fit so are posed anew by `poses`.
   /// Throws what the adjustment threw. @return false when the result no longer fits (the segment
   /// ended)
-  bool merge(State* state);
+  bool merge(State* state, KeyframePose* poses);
 
   int64_t bytes() const { return adjustment_.bytes(); }
 
@@ -50,6 +52,7 @@ class BackgroundAdjustment {
   void move_rest(const WorldMove& move, State* state);
   void take(State* state);
   void take_loops(State* state);
+  void pose_later(State* state, KeyframePose* poses) const;
 
   MapAdjustment adjustment_;
   std::vector<int32_t> keyframes_;

@@ -130,7 +130,7 @@ bool Mapper::add_keyframe(int32_t id) {
   note_followed();
   bool adjusted = false;
   if (background_.running() && id >= background_.due_at(state_.config.adjust_latency)) {
-    adjusted = background_.merge(&state_);
+    adjusted = background_.merge(&state_, &poses_);
   }
   if (state_.initialised) {
     track(id);
@@ -361,15 +361,15 @@ double Mapper::window_sigma(const int32_t* ids, size_t count) {
 
 bool Mapper::finish() {
   keep_place();
-  bool changed = background_.running() && background_.merge(&state_);
+  bool changed = background_.running() && background_.merge(&state_, &poses_);
   places_.finish(state_);
   if (!state_.initialised || state_.config.adjust_every == 0) return changed;
   const int32_t newest = state_.posed_before(state_.map.end_id());
-  if (newest >= 0 && join(newest)) changed = background_.merge(&state_) || changed;
+  if (newest >= 0 && join(newest)) changed = background_.merge(&state_, &poses_) || changed;
   for (int round = 0; newest >= 0 && round < kFinalRounds; ++round) {
     places_.loops().take(state_, &loops_);
     background_.start(state_, newest, kFinalIterations, &loops_, joined_ids_);
-    changed = background_.merge(&state_) || changed;
+    changed = background_.merge(&state_, &poses_) || changed;
   }
   return changed;
 }
