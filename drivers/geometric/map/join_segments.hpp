@@ -2,8 +2,8 @@
 // Makes two segments of the map one.
 #pragma once
 
-#include "drivers/geometric/map/state.hpp"
 #include "drivers/geometric/bundle/world_move.hpp"
+#include "drivers/geometric/map/state.hpp"
 
 namespace unisim::geometric {
 
