@@ -21,7 +21,7 @@ constexpr double kRayleighMedian = 1.1774;
 // Precision below which pixel positions are never trusted, scaled pixels.
 constexpr double kResidualFloor = 0.01;
 // Of the cost: see precision(). Chosen so that the true focal length lies within two of its
-// standard deviations on all recordings but one; drivers/geometric/README.md has the table.
+// standard deviations on all recordings but two; drivers/geometric/README.md has the table.
 constexpr double kModelShare = 0.01;
 
 /// How far an unknown can go. `variance` is its own where residuals are unit normal ones; its prior
