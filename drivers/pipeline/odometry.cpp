@@ -85,8 +85,7 @@ void Odometry::add(const OdometryStep& step) {
   last.time_s = seconds(step.to_ns);
   last.travelled.path += step.metres;
   last.travelled.sigma += step.sigma * step.metres;
-  entries_.push_back(last);
-  while (entries_.size() > kMostSteps) entries_.pop_front();
+  keep(last);
 }
 
 void Odometry::add(const OdometryPosition& position) {
@@ -101,7 +100,11 @@ void Odometry::add(const OdometryPosition& position) {
     next.travelled.path = last.travelled.path + (set_back ? 0.0 : step);
     next.travelled.stretch = last.travelled.stretch + (set_back ? 1 : 0);
   }
-  entries_.push_back(next);
+  keep(next);
+}
+
+void Odometry::keep(const Entry& newest) {
+  entries_.push_back(newest);
   while (entries_.size() > kMostSteps) entries_.pop_front();
 }
 

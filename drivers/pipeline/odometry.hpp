@@ -64,6 +64,8 @@ class Odometry {
     double time_s = 0.0;
     Travelled travelled;
   };
+  void keep(const Entry& newest);
+
   std::deque<Entry> entries_;
   bool has_positions_ = false;
 };

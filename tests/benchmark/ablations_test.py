@@ -2,18 +2,15 @@
 """ablations.py on short simulated walks: its table, and what it refuses."""
 import json
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-PROGRAMS = sys.argv.pop() if len(sys.argv) > 1 else "build/release/bin"
-TOOLS = Path(__file__).resolve().parents[2] / "tools"
+from project import PROGRAMS, run_tool
 
 
 def run(*options):
-    return subprocess.run([sys.executable, "-B", str(TOOLS / "ablations.py"), *map(str, options)],
-                          capture_output=True, text=True)
+    return run_tool("ablations.py", *options)
 
 
 class Program(unittest.TestCase):

@@ -14,17 +14,14 @@ except ImportError as problem:
     print(f"skipped: {problem}")
     sys.exit(0)
 
-PROGRAMS = sys.argv.pop() if len(sys.argv) > 1 else "build/release/bin"
-TOOLS = Path(__file__).resolve().parents[2] / "tools"
-sys.path.insert(0, str(TOOLS))
+from project import PROGRAMS, run_tool  # noqa: E402
 from benchmark_conditions import BARREL, CONDITIONS  # noqa: E402
 from benchmark_recording import quaternion  # noqa: E402
 from benchmark_table import comparison_text  # noqa: E402
 
 
 def run(*options):
-    return subprocess.run([sys.executable, "-B", str(TOOLS / "benchmark.py"), "--bin", PROGRAMS, *map(str, options)],
-                          capture_output=True, text=True)
+    return run_tool("benchmark.py", "--bin", PROGRAMS, *options)
 
 
 class Program(unittest.TestCase):

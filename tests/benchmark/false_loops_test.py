@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """check_false_loops.py: two rooms that differ have no place in common, a room and itself have."""
 import json
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -14,9 +13,7 @@ except ImportError as problem:
     print(f"skipped: {problem}")
     sys.exit(0)
 
-PROGRAMS = sys.argv.pop() if len(sys.argv) > 1 else "build/release/bin"
-TOOLS = Path(__file__).resolve().parents[2] / "tools"
-sys.path.insert(0, str(TOOLS))
+from project import PROGRAMS, run_tool  # noqa: E402
 from check_false_loops import covering, pose_matrix, shared  # noqa: E402
 
 ROOM = "synth --scene room --frames 90 --loops 0 --seed 4"
@@ -24,9 +21,8 @@ ROOM = "synth --scene room --frames 90 --loops 0 --seed 4"
 
 def run(folder, suite, *options):
     (folder / "suite.txt").write_text(suite)
-    done = subprocess.run([sys.executable, "-B", str(TOOLS / "check_false_loops.py"), "--bin", PROGRAMS, "--suite",
-                           str(folder / "suite.txt"), "--size", "320x240", "--out", str(folder / "out"), *options],
-                          capture_output=True, text=True)
+    done = run_tool("check_false_loops.py", "--bin", PROGRAMS, "--suite", folder / "suite.txt", "--size", "320x240",
+                    "--out", folder / "out", *options)
     table = folder / "out" / "false_loops.json"
     return done, json.loads(table.read_text()) if table.is_file() else None
 
