@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/common/format.hpp"
 #include "drivers/common/packed_copy.hpp"
 #include "drivers/common/size_text.hpp"
 
@@ -30,11 +31,6 @@ std::string shape_text(const unisim_image& image) {
 
 bool same_shape(const unisim_image& a, const unisim_image& b) {
   return a.width == b.width && a.height == b.height && a.format == b.format;
-}
-
-std::string seconds_text(milliseconds time) {
-  const std::string text = std::to_string(static_cast<double>(time.count()) / 1000.0);
-  return text.substr(0, text.find('.') + 2);
 }
 
 }  // namespace
@@ -111,8 +107,8 @@ const FrameReader::Item* FrameReader::Shared::next(const std::atomic<bool>* stop
     if (patience.count() == 0 || std::chrono::steady_clock::now() - start < patience) continue;
     timed_out_.status = UNISIM_FRAME_FAILED;
     timed_out_.message = std::string(source_->format) + " source: no frame for " +
-                         seconds_text(patience) +
-                         " s; look at where the frames come from, or raise pipeline.patience_s";
+                         drivers::format("%.1f s", static_cast<double>(patience.count()) / 1000.0) +
+                         "; look at where the frames come from, or raise pipeline.patience_s";
     return &timed_out_;
   }
   const Item& item = slots_[head_].item;

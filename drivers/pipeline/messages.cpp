@@ -2,7 +2,7 @@
 // Messages of a run.
 #include "drivers/pipeline/messages.hpp"
 
-#include <cstdio>
+#include "drivers/common/format.hpp"
 
 namespace unisim::pipeline {
 
@@ -15,10 +15,7 @@ std::string request_name(const unisim_request& request) {
 
 std::string refusal_text(const unisim_refusal& refusal) {
   const auto beyond = [&refusal](const char* what) {
-    std::array<char, 128> text{};
-    static_cast<void>(std::snprintf(text.data(), text.size(), "%s %.3g, over %.3g", what,
-                                    refusal.value, refusal.limit));
-    return std::string(text.data());
+    return drivers::format("%s %.3g, over %.3g", what, refusal.value, refusal.limit);
   };
   switch (refusal.reason) {
     case UNISIM_REFUSED_SIGMA:

@@ -9,12 +9,12 @@
 #include "drivers/pipeline/check_tables.hpp"
 #include "drivers/pipeline/focal_doubt.hpp"
 #include "drivers/pipeline/frame_reader.hpp"
+#include "drivers/pipeline/live_poses.hpp"
 #include "drivers/pipeline/localiser.hpp"
 #include "drivers/pipeline/map_builder.hpp"
 #include "drivers/pipeline/messages.hpp"
 #include "drivers/pipeline/pacer.hpp"
 #include "drivers/pipeline/retired_log.hpp"
-#include "drivers/pipeline/similarity.hpp"
 #include "drivers/pipeline/start_watch.hpp"
 #include "drivers/pipeline/tracking_reason.hpp"
 
@@ -56,11 +56,6 @@ class Pipeline::Impl {
   bool locate(const FrameReader::Item& item);
   void pass_over(const FrameReader::Item& item);
   bool take_keyframe(const unisim_frame& frame);
-  void pose_between(const unisim_frame& frame);
-  bool pose_of_frame(unisim_frame_pose* between, unisim_pose* held);
-  void give_out_early(const unisim_frame& frame, int32_t id);
-  void give_out_live();
-  void give_out(const LivePose& pose);
   void finish();
   bool went_well(Step step);
   void end(Outcome outcome, const std::string& message);
@@ -78,6 +73,7 @@ class Pipeline::Impl {
   Result result_;
   SessionClient session_;
   std::unique_ptr<MapBuilder> builder_;
+  std::unique_ptr<LivePoses> poses_;
   Messages messages_;
   KeyframeSelector selector_;
   Pacer pacer_;
@@ -85,9 +81,6 @@ class Pipeline::Impl {
   std::optional<RetiredLog> retired_;
   unisim_session_info before_{};
   std::optional<Localiser> localiser_;  // with Options::localise
-  int32_t next_live_ = 0;               // first keyframe whose pose is not told yet
-  int32_t early_ = -1;                  // keyframe whose frame's pose was given out before
-  bool ending_ = false;
   StartWatch start_;
   FocalWatch focal_;
 };
@@ -112,6 +105,8 @@ Preparation Pipeline::Impl::prepare() {
                                    options_.odometry,
                                    options_.camera_height};
   builder_ = std::make_unique<MapBuilder>(parts, static_cast<size_t>(windows));
+  poses_ = std::make_unique<LivePoses>(LivePoses::Parts{
+      &session_, predictor_, builder_.get(), &listeners_, &result_.progress, parts.realtime});
   return preparation;
 }
 
@@ -125,7 +120,7 @@ Preparation Pipeline::Impl::load(mapfile::MapFile* map) {
   if (session_.get_info(&before_) != UNISIM_OK) before_ = {};
   RetiredLog::tell(left, *map, session_.handle(), before_.keyframes, listeners_);
   builder_->go_on_after(before_.keyframes);
-  next_live_ = before_.keyframes;
+  poses_->begin_at(before_.keyframes);
   if (options_.localise) localiser_.emplace(session_.handle(), predictor_);
   return {};
 }
@@ -232,7 +227,7 @@ bool Pipeline::Impl::track(const FrameReader::Item& item) {
   const bool own_pace = options_.live || options_.realtime;
   const int64_t number = own_pace ? result_.progress.frames - 1 : frame.index;
   if (!selector_.choose(number, motion)) {
-    if (options_.every_frame) pose_between(frame);
+    if (options_.every_frame) poses_->give_between(frame);
     return true;
   }
   if (!item.message.empty()) messages_.say(MessageKind::kWithoutPixels, item.message);
@@ -273,73 +268,30 @@ bool Pipeline::Impl::locate(const FrameReader::Item& item) {
     located.metre = result_.progress.metre = metre(segment);
   }
   for (Listener* listener : listeners_) listener->on_located(located);
-  if (known) give_out({frame.timestamp_ns, located.T_world_cam, -1, segment, located.metre});
+  if (known) poses_->give_located(located, segment);
   return true;
 }
 
 bool Pipeline::Impl::take_keyframe(const unisim_frame& frame) {
   int32_t id = -1;
   if (!went_well(builder_->add_to_session(frame, &id))) return false;
-  if (options_.every_frame) give_out_early(frame, id);
+  if (options_.every_frame) poses_->give_early(frame, id);
   if (!went_well(builder_->add_to_predictor(frame, id))) return false;
   ++result_.progress.keyframes;
   result_.image_width = frame.image.width;
   result_.image_height = frame.image.height;
   for (Listener* listener : listeners_) listener->on_keyframe(id, frame);
   const bool goes_on = went_well(builder_->serve_pairs());
-  give_out_live();
+  poses_->give_keyframes(false);
   const bool may_ask = predictor_->concurrent_windows == 0;  // see tell_no_start()
   if (may_ask && focal_.due(result_.progress.keyframes)) tell_focal_doubt();
   return goes_on;
 }
 
-void Pipeline::Impl::give_out_live() {
-  if (builder_->last_settled() == 0) return;
-  for (; next_live_ <= builder_->last_settled(); ++next_live_) {
-    unisim_pose pose{};
-    // A held pose (confidence 0) is the old one repeated, not a pose of this keyframe.
-    if (session_.get_pose(next_live_, &pose) != UNISIM_OK || pose.confidence == 0) continue;
-    if (next_live_ != early_) {
-      const bool at_clock = options_.live || options_.realtime;
-      const bool late = ending_ || pose.timestamp_ns != result_.progress.newest_ns;
-      give_out({pose.timestamp_ns, pose.T_world_kf, next_live_, pose.segment, metre(pose.segment),
-                at_clock && late});
-    }
-    for (Listener* listener : listeners_) listener->on_keyframe_pose(pose);
-  }
-}
-
-/// What a keyframe takes comes after the pose of its frame, which those who act by it wait for.
-void Pipeline::Impl::give_out_early(const unisim_frame& frame, int32_t id) {
-  unisim_frame_pose between{};
-  unisim_pose held{};
-  if (!pose_of_frame(&between, &held)) return;
-  early_ = id;
-  give_out({frame.timestamp_ns, compose(held.T_world_kf, between.T_kf_frame), id, held.segment,
-            metre(held.segment)});
-}
-
-/// Pose of the frame observed last, and of the keyframe that holds it. @return false: none
-bool Pipeline::Impl::pose_of_frame(unisim_frame_pose* between, unisim_pose* held) {
-  if (predictor_->frame_pose == nullptr) return false;
-  if (predictor_->frame_pose(predictor_, between) != UNISIM_PREDICTION_OK) return false;
-  return session_.get_pose(between->keyframe_id, held) == UNISIM_OK && held->confidence > 0;
-}
-
-void Pipeline::Impl::pose_between(const unisim_frame& frame) {
-  unisim_frame_pose between{};
-  unisim_pose held{};
-  if (!pose_of_frame(&between, &held)) return;
-  for (Listener* listener : listeners_) {
-    listener->on_between_pose({frame.timestamp_ns, between.keyframe_id, between.T_kf_frame});
-  }
-  give_out({frame.timestamp_ns, compose(held.T_world_kf, between.T_kf_frame), -1, held.segment,
-            metre(held.segment)});
-}
-
 /// While windows are asked for beside, a predictor cannot be asked how it stands.
 void Pipeline::Impl::tell_no_start() {
-  if (predictor_->concurrent_windows != 0 || !start_.due(result_.progress.frames)) return;
+  if (predictor_->concurrent_windows != 0 || poses_->any()) return;
+  if (!start_.due(result_.progress.frames)) return;
   unisim_predictor_info info{};
   predictor_->info(predictor_, &info);
   if (info.no_start != nullptr) messages_.say(info.no_start);
@@ -352,14 +304,7 @@ void Pipeline::Impl::tell_focal_doubt() {
   if (!doubt.empty()) messages_.say(doubt);
 }
 
-void Pipeline::Impl::give_out(const LivePose& pose) {
-  start_.note_pose();
-  result_.progress.metre = pose.metre;
-  for (Listener* listener : listeners_) listener->on_live_pose(pose);
-}
-
 void Pipeline::Impl::finish() {
-  ending_ = true;
   const bool usable =
       result_.outcome != Outcome::kPredictorFailed && result_.outcome != Outcome::kSessionFailed;
   const bool lane_left = went_well(builder_->leave_lane(usable));
@@ -373,7 +318,7 @@ void Pipeline::Impl::finish() {
     went_well(builder_->close());
     builder_->tell_retired();
   }
-  give_out_live();
+  poses_->give_keyframes(true);
   tell_progress();
   tell_focal_doubt();
 }

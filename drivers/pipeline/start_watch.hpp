@@ -8,11 +8,9 @@ namespace unisim::pipeline {
 
 class StartWatch {
  public:
-  void note_pose() { posed_ = true; }
-
   /// @param frames tracked so far
   bool due(int64_t frames) {
-    if (posed_ || frames < next_) return false;
+    if (frames < next_) return false;
     next_ *= kGrowth;
     return true;
   }
@@ -22,7 +20,6 @@ class StartWatch {
   static constexpr int64_t kGrowth = 4;
 
   int64_t next_ = kFirst;
-  bool posed_ = false;
 };
 
 }  // namespace unisim::pipeline

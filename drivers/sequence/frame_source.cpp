@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "drivers/common/stamp_text.hpp"
 #include "drivers/sequence/time_text.hpp"
 
 namespace unisim::sequence {
@@ -56,10 +57,12 @@ int FrameSource::answer(int status, std::string text) {
 bool FrameSource::in_time_order(int64_t index, int64_t timestamp_ns, const std::string& name) {
   if (any_frame_ && timestamp_ns <= last_timestamp_ns_) {
     const bool same = timestamp_ns == last_timestamp_ns_;
-    answer(UNISIM_FRAME_BAD, "frame " + std::to_string(index) + ": " + name + ": time " +
-                                 seconds_text(timestamp_ns) +
-                                 (same ? " repeats" : " goes back from ") +
-                                 (same ? "" : seconds_text(last_timestamp_ns_)) + ": skipped");
+    answer(UNISIM_FRAME_BAD,
+           "frame " + std::to_string(index) + ": " + name + ": time " +
+               drivers::stamp_text(timestamp_ns) + " s" +
+               (same ? " repeats"
+                     : " goes back from " + drivers::stamp_text(last_timestamp_ns_) + " s") +
+               ": skipped");
     return false;
   }
   any_frame_ = true;

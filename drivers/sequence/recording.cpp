@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "drivers/common/format.hpp"
+#include "drivers/common/stamp_text.hpp"
 #include "drivers/sequence/folder.hpp"
 #include "drivers/sequence/text_file.hpp"
 
@@ -14,10 +15,8 @@ namespace unisim::sequence {
 int64_t time_at_rate(int64_t number, double fps) {
   const long double ns = static_cast<long double>(number) * 1e9L / static_cast<long double>(fps);
   if (!(std::abs(ns) <= kMaxTimeNs)) {
-    char text[120];
-    std::snprintf(text, sizeof text, "frame %lld at %g frames/s is at no time: give a higher rate",
-                  static_cast<long long>(number), fps);
-    throw InputError(text);
+    throw InputError(drivers::format("frame %lld at %g frames/s is at no time: give a higher rate",
+                                     static_cast<long long>(number), fps));
   }
   return std::llround(ns);
 }
@@ -73,7 +72,7 @@ void put_in_time_order(Recording* recording) {
       ++repeated;
     } else if (clashing++ == 0) {
       first = base_name(kept.back().path) + " and " + base_name(frame.path) + " at " +
-              seconds_text(frame.timestamp_ns);
+              drivers::stamp_text(frame.timestamp_ns) + " s";
     }
   }
   const std::string clash = recording->list_path + ": " + std::to_string(clashing) + " of " +

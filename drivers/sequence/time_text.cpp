@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "drivers/common/median.hpp"
 
@@ -119,12 +118,6 @@ TimeUnit guess_unit(std::vector<double> times, TimeUnit own, double longest_own_
     if (possible(unit, 0.0, kLongestImageStepS)) return unit;
   }
   return own;
-}
-
-std::string seconds_text(int64_t ns) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6f s", static_cast<double>(ns) * 1e-9);
-  return text;
 }
 
 }  // namespace unisim::sequence

@@ -33,7 +33,4 @@ constexpr double kLongestPoseStepS = 1000.0;
 /// True for seconds since 1970 that a recording can have: 2001 to 2100.
 bool is_date(double seconds);
 
-/// "12.500000 s"
-std::string seconds_text(int64_t ns);
-
 }  // namespace unisim::sequence

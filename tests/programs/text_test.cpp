@@ -3,9 +3,11 @@
 #include "tools/common/text.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "drivers/common/stamp_text.hpp"
 #include "tests/programs/shell.hpp"
 #include "tests/support/catch.hpp"
 #include "tools/common/json_text.hpp"
@@ -44,6 +46,21 @@ TEST_CASE("a line for a terminal has no control characters") {
   CHECK(one_line("a\nb\x1B[31mc\x7F") == "a?b?[31mc?");
   CHECK(one_line("\xC2\x9B"
                  "1m M\xC3\xBC") == "?1m M\xC3\xBC");
+}
+
+TEST_CASE("a time stamp as text is exact to the nanosecond at any time") {
+  using unisim::drivers::stamp_text;
+  CHECK(stamp_text(0) == "0.000000000");
+  CHECK(stamp_text(1305031102175304001) == "1305031102.175304001");
+  CHECK(stamp_text(-1) == "-0.000000001");
+  CHECK(stamp_text(INT64_MAX) == "9223372036.854775807");
+  CHECK(stamp_text(INT64_MIN) == "-9223372036.854775808");
+}
+
+TEST_CASE("a formatted line is as long as what goes into it") {
+  const std::string name(5000, 'x');
+  CHECK(unisim::drivers::format("%s: %d", name.c_str(), 7) == name + ": 7");
+  CHECK(unisim::drivers::format("%s", "").empty());
 }
 
 TEST_CASE("names of files that are not UTF-8 cost no result") {

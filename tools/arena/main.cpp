@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "drivers/common/format.hpp"
 #include "tools/common/command_line.hpp"
 #include "tools/common/failure.hpp"
 #include "tools/common/output.hpp"
 #include "tools/common/program.hpp"
-#include "tools/common/text.hpp"
 #include "tools/replay/settings.hpp"
 #include "tools/replay/version.hpp"
 
@@ -32,10 +32,10 @@ void print(const unisim_config& config) {
   size_t total = 0;
   std::string text;
   for (const unisim_arena_part& part : parts_of(config)) {
-    text += unisim::tools::format("%-16s %12zu\n", part.name, part.bytes);
+    text += unisim::drivers::format("%-16s %12zu\n", part.name, part.bytes);
     total += part.bytes;
   }
-  unisim::tools::print(text + unisim::tools::format("%-16s %12zu\n", "total", total));
+  unisim::tools::print(text + unisim::drivers::format("%-16s %12zu\n", "total", total));
 }
 
 int arena(int argc, const char* const* argv) {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "drivers/common/format.hpp"
 #include "tools/common/output.hpp"
-#include "tools/common/text.hpp"
 
 namespace unisim::bench {
 namespace {
@@ -36,7 +36,7 @@ void print_result(const Json& result, bool json) {
   }
   std::string text;
   for (const auto& [key, value] : result.items()) {
-    text += tools::format("%-22s %s\n", key.c_str(), tools::json_text(value).c_str());
+    text += drivers::format("%-22s %s\n", key.c_str(), tools::json_text(value).c_str());
   }
   tools::print(text);
 }

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <system_error>
 
-#include "tools/common/text.hpp"
+#include "drivers/common/format.hpp"
 
 namespace unisim::tools {
 namespace {
@@ -37,7 +37,7 @@ std::string Range::text() const {
   const char* const pattern = whole_      ? "a whole number from %.15g to %.15g"
                               : with_low_ ? "a number from %g to %g"
                                           : "a number above %g and up to %g";
-  return format(pattern, low_, high_) + (zero_ ? ", or 0" : "");
+  return drivers::format(pattern, low_, high_) + (zero_ ? ", or 0" : "");
 }
 
 std::optional<int64_t> parse_whole(const std::string& text) { return parse<int64_t>(text); }

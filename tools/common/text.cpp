@@ -2,9 +2,7 @@
 // Text for people and for formats with a character set.
 #include "tools/common/text.hpp"
 
-#include <cstdarg>
 #include <cstdint>
-#include <cstdio>
 
 namespace unisim::tools {
 namespace {
@@ -46,19 +44,6 @@ Character first_character(std::string_view text) {
 bool is_control(uint32_t code) { return code < 0x20 || (code >= 0x7F && code < 0xA0); }
 
 }  // namespace
-
-std::string format(const char* pattern, ...) {
-  va_list arguments;
-  va_start(arguments, pattern);
-  va_list again;
-  va_copy(again, arguments);
-  const int length = std::vsnprintf(nullptr, 0, pattern, arguments);
-  va_end(arguments);
-  std::string text(length > 0 ? static_cast<size_t>(length) : 0, '\0');
-  std::vsnprintf(text.data(), text.size() + 1, pattern, again);
-  va_end(again);
-  return text;
-}
 
 std::string valid_utf8(std::string_view text) {
   std::string out;

@@ -7,9 +7,6 @@
 
 namespace unisim::tools {
 
-/// As printf does, of any length.
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
-
 /// The same text where it is UTF-8; each byte that is not becomes U+FFFD. File names are bytes of
 /// any kind, JSON and HTML are not.
 std::string valid_utf8(std::string_view text);

@@ -3,8 +3,9 @@
 #include "tools/eval/association.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
+
+#include "drivers/common/format.hpp"
 
 namespace unisim::eval {
 namespace {
@@ -26,11 +27,10 @@ size_t nearest(const std::vector<Pose>& poses, double time_s, double max_dt_s) {
 }
 
 std::string time_range(const Trajectory& trajectory) {
-  char text[120];
-  std::snprintf(text, sizeof text,
-                trajectory.has_times() ? " has times %.6f to %.6f s" : " has frames %.0f to %.0f",
-                trajectory.poses.front().time_s, trajectory.poses.back().time_s);
-  return trajectory.name + text;
+  return trajectory.name + drivers::format(trajectory.has_times() ? " has times %.6f to %.6f s"
+                                                                  : " has frames %.0f to %.0f",
+                                           trajectory.poses.front().time_s,
+                                           trajectory.poses.back().time_s);
 }
 
 std::string ranges(const Trajectory& ground_truth, const Trajectory& estimate) {
@@ -57,10 +57,8 @@ void check_identity(const Trajectory& ground_truth, const Trajectory& estimate) 
   const Trajectory& numbered = ground_truth.by_line ? estimate : ground_truth;
   const double last = numbered.poses.back().time_s;
   if (last < static_cast<double>(plain.lines)) return;
-  char frame[40];
-  std::snprintf(frame, sizeof frame, " has frame %.0f", last);
-  throw InputError("which line is which frame is not known: " + numbered.name + frame + ", " +
-                   line_count(plain) + advice);
+  throw InputError("which line is which frame is not known: " + numbered.name +
+                   drivers::format(" has frame %.0f, ", last) + line_count(plain) + advice);
 }
 
 }  // namespace
@@ -82,10 +80,9 @@ std::vector<IndexPair> associate(const Trajectory& ground_truth, const Trajector
     pairs.push_back(estimate_longer ? IndexPair{k, match} : IndexPair{match, k});
   }
   if (pairs.empty()) {
-    char what[80];
-    std::snprintf(what, sizeof what, "no poses within %g s of each other", max_dt_s);
     throw ScoreError(ScoreError::Kind::kNoPairs,
-                     std::string(what) + ": " + ranges(ground_truth, estimate));
+                     drivers::format("no poses within %g s of each other: ", max_dt_s) +
+                         ranges(ground_truth, estimate));
   }
   return pairs;
 }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "drivers/common/format.hpp"
 #include "drivers/sequence/folder.hpp"
 #include "tools/common/command_line.hpp"
 #include "tools/common/failure.hpp"
@@ -202,10 +203,9 @@ std::string out_of_range(const std::string& text, double low, bool with_low, dou
   double value = 0;
   const bool number = sequence::parse_number(text, &value);
   if (number && (with_low ? value >= low : value > low) && value <= high) return "";
-  char range[80];
-  std::snprintf(range, sizeof range, "' is not a number %s %g up to %g",
-                with_low ? "from" : "above", low, high);
-  return "'" + text + range;
+  return "'" + text +
+         drivers::format("' is not a number %s %g up to %g", with_low ? "from" : "above", low,
+                         high);
 }
 
 std::string seconds(const std::string& text) { return out_of_range(text, 0, true, kMaxSeconds); }

@@ -2,7 +2,7 @@
 // What unisim-eval prints: the protocol, then the figures, as text or JSON.
 #include "tools/eval/print.hpp"
 
-#include "tools/common/text.hpp"
+#include "drivers/common/format.hpp"
 
 namespace unisim::eval {
 namespace {
@@ -54,8 +54,8 @@ void add_figures(const Json& object, const std::string& prefix, std::string* out
     const std::string label = prefix + name;
     const bool has_unit = name != "scale" && name != "sse";
     if (is_figure(value)) {
-      *out += tools::format("%-20s %.9f%s%s\n", label.c_str(), value.get<double>(),
-                            has_unit ? " " : "", has_unit ? unit.c_str() : "");
+      *out += drivers::format("%-20s %.9f%s%s\n", label.c_str(), value.get<double>(),
+                              has_unit ? " " : "", has_unit ? unit.c_str() : "");
     } else if (value.is_object() && value.contains("rmse")) {
       add_figures(value, label + " ", out);
     }
@@ -64,15 +64,15 @@ void add_figures(const Json& object, const std::string& prefix, std::string* out
 
 void add_side(const char* label, const Json& side, std::string* out) {
   if (!side.contains("format")) {
-    *out += tools::format("%-20s %s (%zu points, %zu not finite)\n", label,
-                          side["file"].get<std::string>().c_str(), side["points"].get<size_t>(),
-                          side["skipped_points"].get<size_t>());
+    *out += drivers::format("%-20s %s (%zu points, %zu not finite)\n", label,
+                            side["file"].get<std::string>().c_str(), side["points"].get<size_t>(),
+                            side["skipped_points"].get<size_t>());
     return;
   }
-  *out += tools::format("%-20s %s (%s, %zu poses, %zu lines skipped)\n", label,
-                        side["file"].get<std::string>().c_str(),
-                        side["format"].get<std::string>().c_str(), side["poses"].get<size_t>(),
-                        side["skipped_lines"].get<size_t>());
+  *out += drivers::format("%-20s %s (%s, %zu poses, %zu lines skipped)\n", label,
+                          side["file"].get<std::string>().c_str(),
+                          side["format"].get<std::string>().c_str(), side["poses"].get<size_t>(),
+                          side["skipped_lines"].get<size_t>());
 }
 
 }  // namespace
@@ -141,19 +141,19 @@ Json truth_json(const DepthImages& found, const TruthOptions& options, const Tru
 std::string text_of(const Json& result) {
   std::string out;
   const Json& protocol = result["protocol"];
-  out += tools::format("%-20s %s\n", "metric", result["metric"].get<std::string>().c_str());
+  out += drivers::format("%-20s %s\n", "metric", result["metric"].get<std::string>().c_str());
   add_side("ground truth", protocol["ground_truth"], &out);
   add_side("estimate", protocol["estimate"], &out);
   Json lines = protocol.value("truth", Json::object());
   lines.update(protocol);
   for (const auto& [name, value] : lines.items()) {
     if (value.is_object()) continue;
-    out += tools::format(
+    out += drivers::format(
         "%-20s %s\n", name.c_str(),
         value.is_string() ? value.get<std::string>().c_str() : tools::json_text(value).c_str());
   }
   if (result.contains("pairs")) {
-    out += tools::format("%-20s %zu\n", "pairs", result["pairs"].get<size_t>());
+    out += drivers::format("%-20s %zu\n", "pairs", result["pairs"].get<size_t>());
   }
   add_figures(result, "", &out);
   return out;

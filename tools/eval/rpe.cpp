@@ -5,9 +5,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
+
+#include "drivers/common/format.hpp"
 
 namespace unisim::eval {
 namespace {
@@ -128,10 +129,9 @@ Rpe relative_pose_error(const Trajectory& ground_truth, const Trajectory& estima
     rpe.time_s.push_back(aligned[j].time_s);
   }
   if (rpe.time_s.empty()) {
-    char what[80];
-    std::snprintf(what, sizeof what, "no step of %g %s in %zu associated poses", step.delta,
-                  step_unit_name(step.unit), pairs.size());
-    throw ScoreError(ScoreError::Kind::kNoStep, what);
+    throw ScoreError(ScoreError::Kind::kNoStep,
+                     drivers::format("no step of %g %s in %zu associated poses", step.delta,
+                                     step_unit_name(step.unit), pairs.size()));
   }
   rpe.translation = summarise(rpe.translation_error);
   rpe.rotation_deg = summarise(rpe.rotation_error_deg);

@@ -6,9 +6,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "drivers/common/format.hpp"
 
 namespace unisim::eval {
 namespace {
@@ -67,10 +68,8 @@ void draw_scale_bar(cv::Mat& image, const Frame& frame) {
   const double metres = decade * (longest / decade >= 5 ? 5 : longest / decade >= 2 ? 2 : 1);
   const int width = cvRound(metres * frame.px_per_metre());
   cv::line(image, {20, kSize_px - 20}, {20 + width, kSize_px - 20}, kTextColour, 3);
-  char text[40];
-  std::snprintf(text, sizeof text, "%g m", metres);
-  cv::putText(image, text, {26 + width, kSize_px - 16}, cv::FONT_HERSHEY_SIMPLEX, 0.5, kTextColour,
-              1, cv::LINE_AA);
+  cv::putText(image, drivers::format("%g m", metres), {26 + width, kSize_px - 16},
+              cv::FONT_HERSHEY_SIMPLEX, 0.5, kTextColour, 1, cv::LINE_AA);
 }
 
 }  // namespace
@@ -115,9 +114,9 @@ bool write_top_view(const std::string& path, const Trajectory& ground_truth, con
   }
   draw_path(image, frame, truth, kTruthColour);
   draw_path(image, frame, estimate, kEstimateColour);
-  char figures[120];
-  std::snprintf(figures, sizeof figures, "ATE rmse %.4f m, max %.4f m, scale %.4f, %zu poses",
-                ate.error.rmse, ate.error.max, ate.T_truth_estimate.s, ate.error.count);
+  const std::string figures =
+      drivers::format("ATE rmse %.4f m, max %.4f m, scale %.4f, %zu poses", ate.error.rmse,
+                      ate.error.max, ate.T_truth_estimate.s, ate.error.count);
   draw_text(image, 0, figures, kTextColour);
   draw_text(image, 1, "ground truth, from above", kTruthColour);
   draw_text(image, 2, "estimate", kEstimateColour);

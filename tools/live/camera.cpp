@@ -5,8 +5,8 @@
 #include <chrono>
 #include <vector>
 
+#include "drivers/common/format.hpp"
 #include "tools/common/failure.hpp"
-#include "tools/common/text.hpp"
 #include "tools/live/pose_age.hpp"
 
 namespace unisim::live {
@@ -84,8 +84,8 @@ replay::Input open_camera(const Options& options, int64_t* stamp_clock_offset_ns
   mode.struct_size = sizeof mode;
   unisim_v4l2_get_mode(camera, &mode);
   input.live_size = replay::FrameSize{mode.width, mode.height};
-  input.notes.push_back(tools::format("%s (%s): %dx%d %s, %.3g frames/s", mode.device, mode.card,
-                                      mode.width, mode.height, mode.pixel_format, mode.fps));
+  input.notes.push_back(drivers::format("%s (%s): %dx%d %s, %.3g frames/s", mode.device, mode.card,
+                                        mode.width, mode.height, mode.pixel_format, mode.fps));
   for (int32_t k = 0; unisim_v4l2_note(camera, k) != nullptr; ++k) {
     input.notes.emplace_back(unisim_v4l2_note(camera, k));
   }

@@ -11,10 +11,11 @@
 #include <opencv2/imgcodecs.hpp>
 #include <system_error>
 
+#include "drivers/common/format.hpp"
 #include "drivers/common/image_mat.hpp"
 #include "drivers/common/packed_copy.hpp"
+#include "drivers/common/stamp_text.hpp"
 #include "tools/common/failure.hpp"
-#include "tools/common/text.hpp"
 #include "tools/live/scheduling.hpp"
 
 namespace unisim::live {
@@ -22,10 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int64_t kNsPerS = 1000000000;
-
 std::string name_of(int64_t number) {
-  return "rgb/" + tools::format("%06lld", static_cast<long long>(number)) + ".png";
+  return "rgb/" + drivers::format("%06lld", static_cast<long long>(number)) + ".png";
 }
 
 }  // namespace
@@ -141,11 +140,10 @@ std::string FrameRecorder::write(const Slot& slot) {
   } else {
     why = write_image(slot.image, folder_ + "/" + name);
   }
-  const bool listed =
-      why.empty() &&
-      std::fprintf(list_, "%lld.%09lld %s\n", static_cast<long long>(slot.timestamp_ns / kNsPerS),
-                   static_cast<long long>(slot.timestamp_ns % kNsPerS), name.c_str()) > 0 &&
-      std::fflush(list_) == 0;
+  const bool listed = why.empty() &&
+                      std::fprintf(list_, "%s %s\n", drivers::stamp_text(slot.timestamp_ns).c_str(),
+                                   name.c_str()) > 0 &&
+                      std::fflush(list_) == 0;
   if (listed) {
     ++written_;
     return "";

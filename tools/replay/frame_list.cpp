@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "drivers/common/format.hpp"
 #include "drivers/sequence/sequence.h"
 #include "tools/common/failure.hpp"
 #include "tools/common/json_text.hpp"
@@ -18,7 +19,7 @@ namespace {
 /// The bytes of a name that JSON cannot hold.
 std::string hex(const std::string& bytes) {
   std::string text;
-  for (const char c : bytes) text += tools::format("%02x", static_cast<unsigned char>(c));
+  for (const char c : bytes) text += drivers::format("%02x", static_cast<unsigned char>(c));
   return text;
 }
 

@@ -8,8 +8,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "drivers/common/format.hpp"
 #include "drivers/pipeline/metre_book.hpp"
-#include "tools/common/text.hpp"
 #include "tools/replay/pose_files.hpp"
 
 namespace unisim::replay {
@@ -31,9 +31,10 @@ void LiveTrajectory::on_live_pose(const pipeline::LivePose& pose) {
 void LiveTrajectory::tell_metre(const pipeline::Metre& metre) {
   if (!pipeline::differs(metre, told_)) return;
   told_ = metre;
-  append(metre.per_unit > 0.0 ? tools::format("# from here on 1 unit = %.9g m, known to %.2g %%\n",
-                                              metre.per_unit, 100.0 * metre.sigma)
-                              : "# from here on the unit is arbitrary\n");
+  append(metre.per_unit > 0.0
+             ? drivers::format("# from here on 1 unit = %.9g m, known to %.2g %%\n", metre.per_unit,
+                               100.0 * metre.sigma)
+             : "# from here on the unit is arbitrary\n");
 }
 
 /// All of the text or none of it: half a line would be read as another pose.

@@ -3,8 +3,9 @@
 #include "tools/replay/localised.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "drivers/common/format.hpp"
+#include "drivers/common/stamp_text.hpp"
 #include "tools/common/failure.hpp"
 #include "tools/common/json_text.hpp"
 #include "tools/common/output.hpp"
@@ -105,34 +106,29 @@ std::string LocalisedFrames::table() const {
   std::string out = "frame,timestamp,state,confidence,inliers,keyframe\n";
   for (int64_t k = 0; k < frames_.size(); ++k) {
     const pipeline::LocatedFrame frame = frames_.get(k);
-    char line[160];
-    std::snprintf(line, sizeof line, ",%s,%.3f,%d,%d\n", state_name(frame.state), frame.confidence,
-                  frame.inliers, frame.keyframe_id);
-    out += std::to_string(frame.frame_index) + "," + seconds_text(frame.timestamp_ns) + line;
+    out += std::to_string(frame.frame_index) + "," + drivers::stamp_text(frame.timestamp_ns) +
+           drivers::format(",%s,%.3f,%d,%d\n", state_name(frame.state), frame.confidence,
+                           frame.inliers, frame.keyframe_id);
   }
   return out;
 }
 
 std::string LocalisedFrames::text(const pipeline::Result& result, const Scores& scores) const {
-  char line[400];
-  std::snprintf(line, sizeof line,
-                "%s: %lld of %lld frames found in %s, %lld where the frame before let expect "
-                "them, %lld anew\n%.1f ms a frame (p95 %.1f, max %.1f)\n",
-                options_.sequence.c_str(), static_cast<long long>(counts_.found()),
-                static_cast<long long>(counts_.frames), options_.load_map.c_str(),
-                static_cast<long long>(counts_.followed), static_cast<long long>(counts_.anew),
-                result.times.track_total.percentile_ms(0.5),
-                result.times.track_total.percentile_ms(0.95), result.times.track_total.max_ms());
-  std::string out = line;
+  std::string out = drivers::format(
+      "%s: %lld of %lld frames found in %s, %lld where the frame before let expect "
+      "them, %lld anew\n%.1f ms a frame (p95 %.1f, max %.1f)\n",
+      options_.sequence.c_str(), static_cast<long long>(counts_.found()),
+      static_cast<long long>(counts_.frames), options_.load_map.c_str(),
+      static_cast<long long>(counts_.followed), static_cast<long long>(counts_.anew),
+      result.times.track_total.percentile_ms(0.5), result.times.track_total.percentile_ms(0.95),
+      result.times.track_total.max_ms());
   if (scores.ate) {
-    std::snprintf(line, sizeof line, "ATE %.4f m RMSE (Sim(3), %zu frames)\n",
-                  scores.ate->error.rmse, scores.ate->pairs.size());
-    out += line;
+    out += drivers::format("ATE %.4f m RMSE (Sim(3), %zu frames)\n", scores.ate->error.rmse,
+                           scores.ate->pairs.size());
   }
   if (metre_) {
-    std::snprintf(line, sizeof line, "metric: 1 unit of the map = %.4g m +- %.2g %%\n",
-                  metre_->metres_per_unit, 100.0 * metre_->sigma);
-    out += line;
+    out += drivers::format("metric: 1 unit of the map = %.4g m +- %.2g %%\n",
+                           metre_->metres_per_unit, 100.0 * metre_->sigma);
   }
   for (const std::string& file : folder_.written()) out += "wrote " + file + "\n";
   return out;

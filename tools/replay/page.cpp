@@ -3,8 +3,8 @@
 #include "tools/replay/page.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "drivers/common/format.hpp"
 #include "drivers/pipeline/stages.hpp"
 #include "tools/replay/report/local_scale.hpp"
 #include "tools/replay/version.hpp"
@@ -12,17 +12,11 @@
 namespace unisim::replay {
 namespace {
 
+using drivers::format;
 using report::Point;
 using report::Sample;
 
 constexpr double kNsPerSecond = 1e9;
-
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-  char line[160];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
 
 Point point_at(double time_s, const Eigen::Vector3d& p, int segment = 0) {
   return {time_s, p.x(), p.y(), p.z(), segment};
@@ -87,11 +81,11 @@ void add_tracks(const Run& run, report::ReportData* page) {
 
 void add_figures(const Run& run, report::ReportData* page) {
   const Scores& scores = run.scores;
-  const auto millimetres = [](double metres) { return text("%.1f mm", 1000.0 * metres); };
+  const auto millimetres = [](double metres) { return format("%.1f mm", 1000.0 * metres); };
   if (scores.ate) {
     page->figures.push_back(
         {"ATE, final poses", millimetres(scores.ate->error.rmse),
-         text("RMSE of %zu %s", scores.ate->pairs.size(), scores.poses.c_str())});
+         format("RMSE of %zu %s", scores.ate->pairs.size(), scores.poses.c_str())});
   }
   if (scores.live) {
     page->figures.push_back(
@@ -99,21 +93,21 @@ void add_figures(const Run& run, report::ReportData* page) {
   }
   if (run.result.predictor.focal_px > 0.0) {
     page->figures.push_back(
-        {"focal length", text("%.1f px", run.result.predictor.focal_px), focal_source(run)});
+        {"focal length", format("%.1f px", run.result.predictor.focal_px), focal_source(run)});
   }
   const SegmentScale* known = run.data.main_scale();
   if (known != nullptr) {
-    page->figures.push_back(
-        {"scale", text("metric, %.2g %%", 100.0 * known->sigma),
-         text("1 unit = %.4g m, %d distances", known->metres_per_unit, run.data.distances.taken)});
+    page->figures.push_back({"scale", format("metric, %.2g %%", 100.0 * known->sigma),
+                             format("1 unit = %.4g m, %d distances", known->metres_per_unit,
+                                    run.data.distances.taken)});
   }
-  page->figures.push_back({"keyframes posed", text("%.1f %%", 100.0 * coverage(run.data)),
-                           text("of %d, %d without", run.data.session.keyframes,
-                                run.data.session.keyframes - run.data.session.posed_keyframes)});
+  page->figures.push_back({"keyframes posed", format("%.1f %%", 100.0 * coverage(run.data)),
+                           format("of %d, %d without", run.data.session.keyframes,
+                                  run.data.session.keyframes - run.data.session.posed_keyframes)});
   page->figures.push_back({"speed",
-                           text("%.0f frames/s", static_cast<double>(run.result.progress.frames) /
-                                                     std::max(run.result.wall_s, 1e-9)),
-                           text("%.1f s in all", run.result.wall_s)});
+                           format("%.0f frames/s", static_cast<double>(run.result.progress.frames) /
+                                                       std::max(run.result.wall_s, 1e-9)),
+                           format("%.1f s in all", run.result.wall_s)});
 }
 
 /// "2: 60 keyframes (ATE 4.1 mm), 12 keyframes"
@@ -122,8 +116,8 @@ std::string segments_text(const Scores& scores) {
   if (scores.segments.size() < 2) return line;
   for (const SegmentScore& segment : scores.segments) {
     line += (&segment == &scores.segments.front() ? ": " : ", ") +
-            text("%d keyframes", segment.keyframes);
-    if (segment.ate_rmse_m) line += text(" (ATE %.1f mm)", 1000.0 * *segment.ate_rmse_m);
+            format("%d keyframes", segment.keyframes);
+    if (segment.ate_rmse_m) line += format(" (ATE %.1f mm)", 1000.0 * *segment.ate_rmse_m);
   }
   return line;
 }
@@ -133,19 +127,20 @@ void add_protocol(const Run& run, report::ReportData* page) {
   const unisim_session_info& info = run.data.session;
   page->protocol = {
       {"sequence", o.sequence + " (" + run.format + ")"},
-      {"frames", text("%lld tracked, %lld unreadable, %lld dropped",
-                      static_cast<long long>(run.result.progress.frames),
-                      static_cast<long long>(run.result.progress.frames_bad),
-                      static_cast<long long>(run.result.progress.frames_dropped))},
-      {"keyframes", text("%d, ", info.keyframes) + keyframe_choice(o)},
-      {"submaps", text("%d of %d keyframes, overlap %d", info.submaps,
-                       o.settings.session.window_size, o.settings.session.window_overlap)},
+      {"frames", format("%lld tracked, %lld unreadable, %lld dropped",
+                        static_cast<long long>(run.result.progress.frames),
+                        static_cast<long long>(run.result.progress.frames_bad),
+                        static_cast<long long>(run.result.progress.frames_dropped))},
+      {"keyframes", format("%d, ", info.keyframes) + keyframe_choice(o)},
+      {"submaps", format("%d of %d keyframes, overlap %d", info.submaps,
+                         o.settings.session.window_size, o.settings.session.window_overlap)},
       {"segments", segments_text(run.scores)},
       {"predictor", o.predictor},
-      {"loops", text("%d counted of %d old keyframes compared, %d times found again after a loss, "
-                     "%d segments joined",
-                     run.result.predictor.loops_accepted, run.result.predictor.loops_tried,
-                     run.result.predictor.relocalised, run.result.predictor.joined)},
+      {"loops",
+       format("%d counted of %d old keyframes compared, %d times found again after a loss, "
+              "%d segments joined",
+              run.result.predictor.loops_accepted, run.result.predictor.loops_tried,
+              run.result.predictor.relocalised, run.result.predictor.joined)},
       {"intrinsics", o.settings.geometric.focal_px > 0.0 ? "given" : "estimated"},
       {"ground truth", run.truth.name.empty() ? "none" : run.truth.name},
       {"alignment", "Sim(3), final and live poses each by themselves"}};
@@ -158,7 +153,7 @@ void add_tables(const Run& run, report::ReportData* page) {
     page->timing.push_back({stage.name, times.count(), times.percentile_ms(0.5),
                             times.percentile_ms(0.95), times.max_ms()});
   }
-  const auto mebibytes = [](double bytes) { return text("%.1f MiB", bytes / (1 << 20)); };
+  const auto mebibytes = [](double bytes) { return format("%.1f MiB", bytes / (1 << 20)); };
   page->memory = {{"session", mebibytes(static_cast<double>(run.data.session.arena_bytes))},
                   {"predictor", mebibytes(static_cast<double>(run.result.predictor.state_bytes))},
                   {"process, at most", mebibytes(static_cast<double>(process_peak_bytes()))}};

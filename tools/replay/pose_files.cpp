@@ -2,24 +2,15 @@
 // Trajectories and the keyframe table as text.
 #include "tools/replay/pose_files.hpp"
 
-#include <cstdarg>
-#include <cstdio>
-
+#include "drivers/common/format.hpp"
+#include "drivers/common/stamp_text.hpp"
 #include "drivers/pipeline/tracking_reason.hpp"
 #include "tools/replay/progress_line.hpp"
 
 namespace unisim::replay {
 namespace {
 
-/// Appends as printf does.
-[[gnu::format(printf, 2, 3)]] void append(std::string* text, const char* format, ...) {
-  char line[512];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  *text += line;
-}
+using drivers::format;
 
 const char* asked_for(int32_t asked) {
   switch (asked) {
@@ -34,36 +25,26 @@ const char* asked_for(int32_t asked) {
 
 }  // namespace
 
-std::string seconds_text(int64_t time_ns) {
-  constexpr int64_t kSecond = 1000000000;
-  const bool negative = time_ns < 0;
-  const int64_t size = negative ? -time_ns : time_ns;
-  std::string text;
-  append(&text, "%s%lld.%09lld", negative ? "-" : "", static_cast<long long>(size / kSecond),
-         static_cast<long long>(size % kSecond));
-  return text;
-}
-
 std::string trajectory_header(const std::string& title, double scale, const SegmentScale* known) {
   std::string text = "# " + title + "\n";
   text += "# timestamp [s] tx ty tz qx qy qz qw; camera-to-world, OpenCV axes\n";
   if (known == nullptr) {
     text += "# unit of length: arbitrary, one camera does not see scale\n";
   } else {
-    append(&text, "# unit of length: metre, known to %.2g %% (1 standard deviation)\n",
-           100.0 * known->sigma);
-    append(&text, "# 1 unit of the map and of trajectory_live.tum = %.9g m\n",
-           known->metres_per_unit);
+    text += format("# unit of length: metre, known to %.2g %% (1 standard deviation)\n",
+                   100.0 * known->sigma);
+    text +=
+        format("# 1 unit of the map and of trajectory_live.tum = %.9g m\n", known->metres_per_unit);
   }
-  if (scale > 0.0) append(&text, "# aligned with ground truth, 1 unit = %.9g m\n", scale);
+  if (scale > 0.0) text += format("# aligned with ground truth, 1 unit = %.9g m\n", scale);
   return text;
 }
 
 std::string trajectory_line(const unisim_stamped_pose& pose) {
   const unisim_sim3& T = pose.T_world_cam;
-  std::string text = seconds_text(pose.timestamp_ns);
-  append(&text, " %.10g %.10g %.10g %.10g %.10g %.10g %.10g\n", T.t[0], T.t[1], T.t[2], T.q[0],
-         T.q[1], T.q[2], T.q[3]);
+  std::string text = drivers::stamp_text(pose.timestamp_ns);
+  text += format(" %.10g %.10g %.10g %.10g %.10g %.10g %.10g\n", T.t[0], T.t[1], T.t[2], T.q[0],
+                 T.q[1], T.q[2], T.q[3]);
   return text;
 }
 
@@ -78,13 +59,13 @@ std::string keyframe_table(const RunData& data) {
   std::string text =
       "id,timestamp,scale,state,confidence,submap,covariance_trace,segment,frame,unit,reason\n";
   for (const KeyframeRow& row : data.keyframes) {
-    append(&text, "%d,", row.pose.keyframe_id);
-    text += seconds_text(row.pose.timestamp_ns);
-    append(&text, ",%.10g,%s,%d,%d,", row.pose.T_world_kf.s, state_name(row.pose.state),
-           row.pose.confidence, row.pose.submap_id);
-    if (row.covariance_trace >= 0.0) append(&text, "%.6g", row.covariance_trace);
-    append(&text, ",%d,%lld,%s,%s\n", row.pose.segment, static_cast<long long>(row.frame_index),
-           data.metric ? "metric" : "relative", pipeline::reason_name(row.reason));
+    text += format("%d,", row.pose.keyframe_id);
+    text += drivers::stamp_text(row.pose.timestamp_ns);
+    text += format(",%.10g,%s,%d,%d,", row.pose.T_world_kf.s, state_name(row.pose.state),
+                   row.pose.confidence, row.pose.submap_id);
+    if (row.covariance_trace >= 0.0) text += format("%.6g", row.covariance_trace);
+    text += format(",%d,%lld,%s,%s\n", row.pose.segment, static_cast<long long>(row.frame_index),
+                   data.metric ? "metric" : "relative", pipeline::reason_name(row.reason));
   }
   return text;
 }
@@ -94,9 +75,9 @@ std::string place_table(const unisim_predictor_info& info) {
       "keyframe,candidate,asked,score,matches,pose_inliers,patch_inliers,in_view,accepted,reason\n";
   for (int32_t k = 0; k < info.place_count; ++k) {
     const unisim_place_report& report = info.places[k];
-    append(&text, "%d,%d,%s,%d,%d,%d,%d,%d,%d,%s\n", report.keyframe, report.candidate,
-           asked_for(report.asked), report.score, report.matches, report.pose_inliers,
-           report.patch_inliers, report.in_view, report.accepted, report.reason);
+    text += format("%d,%d,%s,%d,%d,%d,%d,%d,%d,%s\n", report.keyframe, report.candidate,
+                   asked_for(report.asked), report.score, report.matches, report.pose_inliers,
+                   report.patch_inliers, report.in_view, report.accepted, report.reason);
   }
   return text;
 }

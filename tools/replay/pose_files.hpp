@@ -10,9 +10,6 @@
 
 namespace unisim::replay {
 
-/// Seconds with all nine digits: a double would round present-day times.
-std::string seconds_text(int64_t time_ns);
-
 /// Comments at the head of a trajectory.
 /// @param title what the poses are
 /// @param scale metres per unit found by alignment with ground truth, <= 0: not known

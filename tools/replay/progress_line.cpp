@@ -3,9 +3,9 @@
 #include "tools/replay/progress_line.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <iostream>
 
+#include "drivers/common/format.hpp"
 #include "drivers/pipeline/tracking_reason.hpp"
 #include "tools/common/json_text.hpp"
 #include "tools/common/output.hpp"
@@ -82,15 +82,12 @@ std::string ProgressLine::usual_text(const pipeline::Progress& progress) const {
     text =
         bar(std::min(1.0, static_cast<double>(done) / static_cast<double>(progress.frames_total)));
   }
-  char line[160];
-  std::snprintf(line, sizeof line, "%lld frames, %.0f/s, %d keyframes, %d submaps, %s",
-                static_cast<long long>(progress.frames), fps, progress.keyframes, progress.submaps,
-                state_text(progress).c_str());
-  text += line;
+  text += drivers::format("%lld frames, %.0f/s, %d keyframes, %d submaps, %s",
+                          static_cast<long long>(progress.frames), fps, progress.keyframes,
+                          progress.submaps, state_text(progress).c_str());
   if (progress.frames_total > done && fps > 0.0) {
-    std::snprintf(line, sizeof line, ", %.0f s left",
-                  static_cast<double>(progress.frames_total - done) / fps);
-    text += line;
+    text +=
+        drivers::format(", %.0f s left", static_cast<double>(progress.frames_total - done) / fps);
   }
   return text;
 }

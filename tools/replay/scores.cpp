@@ -2,10 +2,10 @@
 // How far a run is from ground truth.
 #include "tools/replay/scores.hpp"
 
-#include <cstdio>
 #include <map>
 #include <vector>
 
+#include "drivers/common/format.hpp"
 #include "tools/common/failure.hpp"
 #include "tools/replay/score_poses.hpp"
 
@@ -31,13 +31,11 @@ std::string clock_problem(const eval::Trajectory& truth, const eval::Trajectory&
   const double to = run.poses.back().time_s;
   if (from <= last + kMaxTimeDifferenceSeconds && to >= first - kMaxTimeDifferenceSeconds)
     return {};
-  char line[160];
-  std::snprintf(
-      line, sizeof line,
-      " has times %.3f to %.3f s, the sequence %.3f to %.3f s: no score; give ground truth "
-      "of the same clock",
-      first, last, from, to);
-  return truth.name + line;
+  return truth.name +
+         drivers::format(
+             " has times %.3f to %.3f s, the sequence %.3f to %.3f s: no score; give ground truth "
+             "of the same clock",
+             first, last, from, to);
 }
 
 eval::Ate ate_of(const ScorePoses& poses) {

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "drivers/common/format.hpp"
 #include "drivers/onnx/onnx.h"
 #include "drivers/pipeline/stages.hpp"
 #include "drivers/pipeline/tracking_reason.hpp"
@@ -16,6 +16,7 @@
 namespace unisim::replay {
 namespace {
 
+using drivers::format;
 using tools::Json;
 
 Json map_json(const std::string& path) { return path.empty() ? Json(nullptr) : Json(path); }
@@ -145,28 +146,21 @@ double frames_per_second(const pipeline::Result& result) {
   return static_cast<double>(result.progress.frames) / std::max(result.wall_s, 1e-9);
 }
 
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-  char line[256];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
-
 std::string score_line(const Run& run) {
   const Scores& scores = run.scores;
   if (!scores.ate) return scores.problem.empty() ? "no ground truth, no score\n" : "no score\n";
-  std::string line = text("ATE %.4f m RMSE (Sim(3), %zu %s)", scores.ate->error.rmse,
-                          scores.ate->pairs.size(), scores.poses.c_str());
-  if (scores.live) line += text(", live poses %.4f m", scores.live->error.rmse);
-  if (scores.rpe) line += text(", RPE %.4f m", scores.rpe->translation.rmse);
-  line += text(run.data.metric ? ", 1 m of the map = %.4g m\n" : ", 1 unit = %.4g m\n",
-               scores.ate->T_truth_estimate.s);
+  std::string line = format("ATE %.4f m RMSE (Sim(3), %zu %s)", scores.ate->error.rmse,
+                            scores.ate->pairs.size(), scores.poses.c_str());
+  if (scores.live) line += format(", live poses %.4f m", scores.live->error.rmse);
+  if (scores.rpe) line += format(", RPE %.4f m", scores.rpe->translation.rmse);
+  line += format(run.data.metric ? ", 1 m of the map = %.4g m\n" : ", 1 unit = %.4g m\n",
+                 scores.ate->T_truth_estimate.s);
   if (scores.segments.size() < 2) return line;
   const SegmentScore& longest = *std::max_element(
       scores.segments.begin(), scores.segments.end(),
       [](const SegmentScore& a, const SegmentScore& b) { return a.keyframes < b.keyframes; });
-  line += text("longest segment: %d keyframes", longest.keyframes);
-  if (longest.ate_rmse_m) line += text(", aligned by itself ATE %.4f m", *longest.ate_rmse_m);
+  line += format("longest segment: %d keyframes", longest.keyframes);
+  if (longest.ate_rmse_m) line += format(", aligned by itself ATE %.4f m", *longest.ate_rmse_m);
   return line + "\n";
 }
 
@@ -250,7 +244,7 @@ std::string focal_source(const Run& run) {
   if (run.options.settings.geometric.focal_px > 0.0) return "given";
   const unisim_predictor_info& info = run.result.predictor;
   if (!(info.focal_sigma_px > 0.0)) return "estimated";
-  return text("estimated +- %.1f %%", 100.0 * info.focal_sigma_px / info.focal_px);
+  return format("estimated +- %.1f %%", 100.0 * info.focal_sigma_px / info.focal_px);
 }
 
 std::string summary_text(const Run& run, const std::vector<std::string>& files) {
@@ -260,31 +254,32 @@ std::string summary_text(const Run& run, const std::vector<std::string>& files) 
                     "): " + std::to_string(result.progress.frames) + " frames, " +
                     std::to_string(info.keyframes) + " keyframes (" + keyframe_choice(run.options) +
                     "), " + std::to_string(info.submaps) + " submaps, " +
-                    text("%.1f %% of the keyframes posed", 100.0 * coverage(run.data));
+                    format("%.1f %% of the keyframes posed", 100.0 * coverage(run.data));
   const int32_t unposed = info.keyframes - info.posed_keyframes;
   if (unposed > 0) out += " (" + std::to_string(unposed) + " without a pose)";
   if (info.segments > 1) out += ", " + std::to_string(info.segments) + " segments";
   out += "\n" + score_line(run);
   const SegmentScale* known = run.data.main_scale();
   if (known != nullptr) {
-    out += text("metric: 1 unit = %.4g m +- %.2g %%, %d distances counted, %d refused\n",
-                known->metres_per_unit, 100.0 * known->sigma, run.data.distances.taken,
-                run.data.distances.refused);
+    out += format("metric: 1 unit = %.4g m +- %.2g %%, %d distances counted, %d refused\n",
+                  known->metres_per_unit, 100.0 * known->sigma, run.data.distances.taken,
+                  run.data.distances.refused);
   } else if (!run.data.scales.empty()) {
     out += "relative: only some of the segments have a known scale\n";
   }
   if (result.predictor.focal_px > 0.0) {
     out +=
-        text("focal length %.1f px (%s), ", result.predictor.focal_px, focal_source(run).c_str());
+        format("focal length %.1f px (%s), ", result.predictor.focal_px, focal_source(run).c_str());
   }
   if (result.predictor.readout_ms != 0) {
     const bool told = run.options.settings.geometric.readout_ms != 0;
     out +=
-        text("readout %.1f ms (%s), ", result.predictor.readout_ms, told ? "given" : "estimated");
+        format("readout %.1f ms (%s), ", result.predictor.readout_ms, told ? "given" : "estimated");
   }
   const pipeline::LatencyHistogram& live = result.times.track_total;
-  out += text("%.1f s, %.0f frames/s, live pose of a keyframe %.1f ms (p95 %.1f)\n", result.wall_s,
-              frames_per_second(result), live.percentile_ms(0.5), live.percentile_ms(0.95));
+  out +=
+      format("%.1f s, %.0f frames/s, live pose of a keyframe %.1f ms (p95 %.1f)\n", result.wall_s,
+             frames_per_second(result), live.percentile_ms(0.5), live.percentile_ms(0.95));
   for (const std::string& file : files) out += "wrote " + file + "\n";
   return out;
 }

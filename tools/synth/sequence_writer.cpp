@@ -2,12 +2,11 @@
 // Writing of a TUM-style folder.
 #include "tools/synth/sequence_writer.hpp"
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "drivers/common/format.hpp"
 #include "tools/common/failure.hpp"
 
 namespace unisim::synth {
@@ -17,11 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMark = "# written by unisim-synth\n";
 
-std::string format(const char* pattern, double value) {
-  std::array<char, 64> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), pattern, value);
-  return buffer.data();
-}
+using drivers::format;
 
 std::string depth_name(double time_s) { return "depth/" + format("%.6f", time_s) + ".png"; }
 

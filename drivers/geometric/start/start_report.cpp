@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "drivers/common/format.hpp"
 #include "drivers/predictor.h"
 
 namespace unisim::geometric {
 
 namespace {
+
+using drivers::format;
 
 // What counts as the image's darkest and brightest: a few hot pixels or a lamp do not.
 constexpr double kDarkest = 0.01;
@@ -57,32 +59,26 @@ constexpr const Reason& reason_of(StartOutcome outcome) {
   return *reason;
 }
 
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-  char line[256];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
-
 std::string counted(long long count, const char* thing) {
-  return text("%lld %s%s", count, thing, count == 1 ? "" : "s");
+  return format("%lld %s%s", count, thing, count == 1 ? "" : "s");
 }
 
 std::string what_was_seen(const StartStatistics& seen, const cv::Size& size) {
   std::string line = counted(seen.frames, "frame") + " of " +
-                     text("%dx%d", size.width, size.height) + ", " +
+                     format("%dx%d", size.width, size.height) + ", " +
                      counted(seen.keyframes, "keyframe");
-  line += text(", grey levels %d to %d of 255", seen.level(kDarkest), seen.level(kBrightest));
+  line += format(", grey levels %d to %d of 255", seen.level(kDarkest), seen.level(kBrightest));
   if (seen.keyframes == 0) return line;
-  line += text(", %.0f features per keyframe", static_cast<double>(seen.features) / seen.keyframes);
+  line +=
+      format(", %.0f features per keyframe", static_cast<double>(seen.features) / seen.keyframes);
   if (seen.followed_keyframes > 0) {
-    line += text(", %.0f %% of them followed to the next",
-                 100 * seen.followed / seen.followed_keyframes);
+    line += format(", %.0f %% of them followed to the next",
+                   100 * seen.followed / seen.followed_keyframes);
   }
   if (seen.moved_keyframes > 0) {
     const double moved = seen.moved_px / seen.moved_keyframes;
-    line += text(" and moved %.1f px (%.1f %% of the diagonal)", moved,
-                 100 * moved / std::hypot(size.width, size.height));
+    line += format(" and moved %.1f px (%.1f %% of the diagonal)", moved,
+                   100 * moved / std::hypot(size.width, size.height));
   }
   return line;
 }
@@ -117,7 +113,7 @@ std::string advice(const StartStatistics& seen) {
   const auto measured = static_cast<double>(seen.moving + seen.resting);
   if (static_cast<double>(seen.resting) > kRestingShare * measured &&
       static_cast<double>(seen.moving) > kMovingShare * measured) {
-    return text(
+    return format(
         "%.0f %% of the features stay in place while the others move: hide what goes with "
         "the camera (text, logo, own body) by --mask",
         100 * static_cast<double>(seen.resting) / measured);

@@ -2,15 +2,13 @@
 // Lines about loaded models.
 #include "drivers/onnx/model/model_notes.hpp"
 
-#include <cstdio>
+#include "drivers/common/format.hpp"
 
 namespace unisim::onnx {
 namespace {
 
 std::string megabytes(int64_t bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g MB", static_cast<double>(bytes) / (1 << 20));
-  return text;
+  return drivers::format("%.3g MB", static_cast<double>(bytes) / (1 << 20));
 }
 
 }  // namespace
@@ -25,9 +23,7 @@ std::string cost_line(const Contract& contract, const std::string& what,
   std::string line = contract.model + what + ":";
   for (const Cost& cost : costs) {
     line += (line.back() == ':' ? " " : ", ") + std::to_string(cost.views) + " view(s)";
-    char seconds[32];
-    std::snprintf(seconds, sizeof seconds, " %.3g s and", cost.seconds);
-    if (cost.seconds > 0) line += seconds;
+    if (cost.seconds > 0) line += drivers::format(" %.3g s and", cost.seconds);
     line += " " + megabytes(cost.bytes);
   }
   return line + (contract.peaks.empty() ? " at the first run" : ", memory as its file states");

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "core/depth/log_median_ratio.hpp"
+#include "drivers/common/format.hpp"
 #include "tools/bench/process.hpp"
 #include "tools/common/failure.hpp"
 #include "tools/common/json_text.hpp"
 #include "tools/common/output.hpp"
-#include "tools/common/text.hpp"
 #include "tools/synth/random.hpp"
 
 namespace unisim::bench {
@@ -82,10 +82,10 @@ int depth_command(const DepthSettings& settings) {
     tools::print(tools::json_text({{"depth_ratio", sizes}}) + "\n");
     return tools::kExitDone;
   }
-  std::string text = tools::format("%12s %12s\n", "size", "ms");
+  std::string text = drivers::format("%12s %12s\n", "size", "ms");
   for (const auto& row : sizes) {
-    text += tools::format("%7dx%-4d %12.4f\n", row["width"].get<int>(), row["height"].get<int>(),
-                          row["ms"].get<double>());
+    text += drivers::format("%7dx%-4d %12.4f\n", row["width"].get<int>(), row["height"].get<int>(),
+                            row["ms"].get<double>());
   }
   tools::print(text);
   return tools::kExitDone;

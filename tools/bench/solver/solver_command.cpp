@@ -3,9 +3,9 @@
 #include "tools/bench/solver/solver_command.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <string>
 
+#include "drivers/common/format.hpp"
 #include "tools/bench/process.hpp"
 #include "tools/bench/solver/problem.hpp"
 #include "tools/bench/solver/solver_run.hpp"
@@ -13,7 +13,6 @@
 #include "tools/common/heap_counter.hpp"
 #include "tools/common/json_text.hpp"
 #include "tools/common/output.hpp"
-#include "tools/common/text.hpp"
 
 namespace unisim::bench {
 namespace {
@@ -60,10 +59,8 @@ const char* stop_name(LmStop stop) {
 
 Json run_json(const SolverSettings& settings, const PoseGraph& graph, const LmOptions& options,
               int64_t resident_before_kb, const SolverRun& run) {
-  char config[64];
-  std::snprintf(config, sizeof config, "lm/lambda%.0e", options.initial_lambda);
   return {{"solver", "unisim"},
-          {"config", config},
+          {"config", drivers::format("lm/lambda%.0e", options.initial_lambda)},
           {"graph", settings.graph},
           {"nodes", graph.nodes.size()},
           {"edges", graph.edges.size()},
@@ -88,15 +85,15 @@ std::string table_text(const Json& result) {
   for (const auto& [key, value] : result.items()) {
     if (key == "split_ms") {
       for (const auto& [phase, ms] : value.items()) {
-        text += tools::format("  %-14s %12.3f\n", phase.c_str(), ms.get<double>());
+        text += drivers::format("  %-14s %12.3f\n", phase.c_str(), ms.get<double>());
       }
     } else if (key == "trace") {
-      text += tools::format("%14s %20s\n", "ms", "cost");
+      text += drivers::format("%14s %20s\n", "ms", "cost");
       for (const Json& state : value) {
-        text += tools::format("%14.3f %20.12g\n", state[0].get<double>(), state[1].get<double>());
+        text += drivers::format("%14.3f %20.12g\n", state[0].get<double>(), state[1].get<double>());
       }
     } else {
-      text += tools::format("%-16s %s\n", key.c_str(), tools::json_text(value).c_str());
+      text += drivers::format("%-16s %s\n", key.c_str(), tools::json_text(value).c_str());
     }
   }
   return text;

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Time stamps as text.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "drivers/common/format.hpp"
+
+namespace unisim::drivers {
+
+/// Seconds with all nine decimals, which a double does not hold for dates: "1305031102.175304001".
+inline std::string stamp_text(int64_t time_ns) {
+  constexpr uint64_t kSecond = 1000000000;
+  const bool negative = time_ns < 0;
+  const uint64_t size =
+      negative ? 0 - static_cast<uint64_t>(time_ns) : static_cast<uint64_t>(time_ns);
+  return format("%s%llu.%09llu", negative ? "-" : "",
+                static_cast<unsigned long long>(size / kSecond),
+                static_cast<unsigned long long>(size % kSecond));
+}
+
+}  // namespace unisim::drivers
