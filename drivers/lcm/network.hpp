@@ -15,6 +15,11 @@ struct DestroyLcm {
 };
 using LcmPtr = std::unique_ptr<lcm_t, DestroyLcm>;
 
+/// Until a thread that listens looks whether it is to end.
+inline constexpr int kSliceMs = 100;
+/// Largest time of a message that is one in nanoseconds too.
+inline constexpr int64_t kLastMicrosecond = INT64_MAX / 1000;
+
 enum class Direction { kPublish, kSubscribe };
 
 /// A URL in its parts: provider://address?name=value&...

@@ -13,11 +13,8 @@
 namespace unisim::lcm {
 namespace {
 
-// Until the thread looks whether it is to end.
-constexpr int kSliceMs = 100;
 // Longer than that no tracking takes for a keyframe.
 constexpr int kWaiting = 4096;
-constexpr int64_t kLastMicrosecond = INT64_MAX / 1000;
 
 LcmPtr open(const OdometryListenerConfig& config) {
   check_channel(config.channel);

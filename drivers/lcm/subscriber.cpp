@@ -25,9 +25,6 @@ using sequence::ImageMessage;
 
 // Holds a colour image of 1280x720 whole, which arrives faster than it is read.
 constexpr int64_t kReceiveBytes = 4 << 20;
-// Until the thread looks whether it is to end.
-constexpr int kSliceMs = 100;
-constexpr int64_t kLastMicrosecond = INT64_MAX / 1000;
 
 class Subscriber final : public sequence::FrameSource {
  public:
