@@ -25,6 +25,11 @@ uint64_t mix(const std::array<int64_t, 3>& key) {
   return hash;
 }
 
+/// Of arrays the library would compare bytes by a call, which takes as long as all the rest.
+bool same(const std::array<int64_t, 3>& a, const std::array<int64_t, 3>& b) {
+  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
 }  // namespace
 
 VoxelGrid::VoxelGrid(double side, size_t capacity)
@@ -32,7 +37,7 @@ VoxelGrid::VoxelGrid(double side, size_t capacity)
 
 size_t VoxelGrid::slot_of(const std::array<int64_t, 3>& key) const {
   size_t slot = mix(key) & (slots_.size() - 1);
-  while (slots_[slot] != 0 && cells_[slots_[slot] - 1].key != key)
+  while (slots_[slot] != 0 && !same(cells_[slots_[slot] - 1].key, key))
     slot = (slot + 1) & (slots_.size() - 1);
   return slot;
 }

@@ -82,6 +82,33 @@ std::array<double, 3> rotate(const double q[4], const std::array<double, 3>& p) 
           p[2] + q[3] * t[2] + q[0] * t[1] - q[1] * t[0]};
 }
 
+/// Puts points in an order in which any first part of them is an even choice: sixteen of these, one
+/// after the other, each in the order of before, which is that of neighbours in space. Other views
+/// begin elsewhere: of one surface all is seen.
+template <class Point>
+void spread_evenly(int32_t view, std::vector<Point>* points) {
+  constexpr uint32_t kGolden = 0x9e3779b9;  // the golden section of 2^32
+  constexpr int kPartBits = 4;
+  std::vector<uint8_t> part_of;
+  part_of.reserve(points->size());
+  for (size_t k = 0; k < points->size(); ++k) {
+    const auto turn = kGolden * (static_cast<uint32_t>(k) + static_cast<uint32_t>(view));
+    part_of.push_back(static_cast<uint8_t>(turn >> (32 - kPartBits)));
+  }
+  std::vector<Point> spread;
+  spread.reserve(points->size());
+  for (int part = 0; part < 1 << kPartBits; ++part) {
+    for (size_t k = 0; k < points->size(); ++k) {
+      if (part_of[k] == part) spread.push_back((*points)[k]);
+    }
+  }
+  points->swap(spread);
+}
+
+size_t share_of(int64_t count, double share) {
+  return static_cast<size_t>(std::ceil(share * static_cast<double>(count)));
+}
+
 template <class T>
 void put(std::string* bytes, const T& value) {
   char raw[sizeof value];
@@ -152,7 +179,7 @@ void Cloud::on_window(int32_t submap_id, const unisim_window_prediction& window)
     view.center_sigma = sigma;
     view.mean_confidence = confidence;
     view.focal_px = window.focal_px;
-    take_depth(window.depth[k], window.focal_px, &view);
+    take_depth(window.keyframe_ids[k], window.depth[k], window.focal_px, &view);
   }
 }
 
@@ -172,7 +199,7 @@ float Cloud::least_confidence(const unisim_depth_map& map, int step) const {
   return std::max(least, confidences[static_cast<size_t>(drop)]);
 }
 
-void Cloud::take_depth(const unisim_depth_map& given, double focal_px, View* view) {
+void Cloud::take_depth(int32_t id, const unisim_depth_map& given, double focal_px, View* view) {
   view->points.clear();
   const bool fit = options_.sure_confidence > 0.0 && given.confidence != nullptr;
   const unisim_depth_map& map =
@@ -195,6 +222,10 @@ void Cloud::take_depth(const unisim_depth_map& given, double focal_px, View* vie
     }
   }
   view->points.shrink_to_fit();
+  spread_evenly(id, &view->points);
+  view->log_depth = 0.0;
+  for (const Point& point : view->points)
+    view->log_depth += std::log(static_cast<double>(point.depth));
 }
 
 Cloud::Rgb Cloud::colour_at(const View& view, double x, double y) {
@@ -219,7 +250,9 @@ std::vector<Cloud::Rgb> Cloud::colours_of(const View& view, const unisim_depth_m
 void Cloud::on_revision(int32_t submap_id, const unisim_window_revision& revision) {
   for (auto& [id, view] : views_) {
     if (view.submap_id != submap_id || view.index >= revision.count) continue;
-    const double ratio = std::exp(revision.log_depth_ratio[view.index]);
+    const double log_ratio = revision.log_depth_ratio[view.index];
+    const double ratio = std::exp(log_ratio);
+    view.log_depth += log_ratio * static_cast<double>(view.points.size());
     for (Point& point : view.points) {
       point.depth = static_cast<float>(static_cast<double>(point.depth) * ratio);
     }
@@ -237,18 +270,17 @@ void Cloud::settle(std::map<int32_t, View>::iterator view) {
   const std::vector<Point>& points = view->second.points;
   if (!points.empty()) {
     const SettledView head = {view->first, view->second.submap_id,
-                              static_cast<int64_t>(points.size()), view->second.focal_px};
+                              static_cast<int64_t>(points.size()), view->second.focal_px,
+                              view->second.log_depth};
     settled_.write(settled_.size(), &head, sizeof head);
     settled_.write(settled_.size(), points.data(), points.size() * sizeof(Point));
   }
   views_.erase(view);
 }
 
-/// Calls each(placed) for the views of a segment that have a pose; points are not read where only
-/// their number is wanted.
+/// Calls each(placed) for the views of a segment that have a pose, with a share of their points.
 template <typename Each>
-void Cloud::for_each_placed(const RunData& poses, int32_t segment, bool with_points,
-                            Each each) const {
+void Cloud::for_each_placed(const RunData& poses, int32_t segment, double share, Each each) const {
   const auto place = [&](int32_t keyframe_id, int32_t submap_id, PlacedView* placed) {
     const auto row =
         std::lower_bound(poses.keyframes.begin(), poses.keyframes.end(), keyframe_id,
@@ -263,34 +295,40 @@ void Cloud::for_each_placed(const RunData& poses, int32_t segment, bool with_poi
   };
   PlacedView placed{};
   std::vector<Point> points;
-  placed.points = &points;
   SettledView head{};
   for (int64_t at = 0; settled_.read(at, &head, sizeof head);) {
-    const size_t bytes = static_cast<size_t>(head.points) * sizeof(Point);
-    points.resize(static_cast<size_t>(head.points));
+    points.resize(share_of(head.points, share));
+    placed.points = points.data();
+    placed.count = head.points;
+    placed.log_depth = head.log_depth;
     placed.focal_px = head.focal_px;
     if (place(head.keyframe_id, head.submap_id, &placed)) {
-      if (with_points) settled_.read(at + int64_t{sizeof head}, points.data(), bytes);
+      settled_.read(at + int64_t{sizeof head}, points.data(), points.size() * sizeof(Point));
       each(placed);
     }
-    at += static_cast<int64_t>(sizeof head + bytes);
+    at += static_cast<int64_t>(sizeof head) + head.points * static_cast<int64_t>(sizeof(Point));
   }
   for (const auto& [id, view] : views_) {
-    placed.points = &view.points;
+    placed.points = view.points.data();
+    placed.count = static_cast<int64_t>(view.points.size());
+    placed.log_depth = view.log_depth;
     placed.focal_px = view.focal_px;
     if (place(id, view.submap_id, &placed)) each(placed);
   }
 }
 
-/// Calls each(position in the world, point).
+/// Calls each(position in the world, point) for a share of the points of a view.
 template <typename Each>
-void Cloud::for_each_point(const PlacedView& placed, const CloudCamera& camera, Each each) const {
+void Cloud::for_each_point(const PlacedView& placed, double share, const CloudCamera& camera,
+                           Each each) const {
   const unisim_sim3& T_world_kf = placed.pose->T_world_kf;
   const bool shared = options_.one_camera && camera.focal_px > 0.0;
   const double wider = shared ? placed.focal_px / camera.focal_px : 1.0;
   const double right = shared ? camera.center_x_px / camera.focal_px : 0.0;
   const double down = shared ? camera.center_y_px / camera.focal_px : 0.0;
-  for (const Point& point : *placed.points) {
+  const size_t count = share_of(placed.count, share);
+  for (const Point* at = placed.points; at != placed.points + count; ++at) {
+    const Point& point = *at;
     const double x = static_cast<double>(point.x) * wider - right;
     const double y = static_cast<double>(point.y) * wider - down;
     const double z = static_cast<double>(point.depth) * placed.scale;
@@ -305,22 +343,23 @@ tools::VoxelGrid Cloud::thinned(const RunData& poses, int32_t segment,
                                 const CloudCamera& camera) const {
   double log_depth = 0.0;
   int64_t count = 0;
-  for_each_placed(poses, segment, true, [&](const PlacedView& placed) {
-    for (const Point& point : *placed.points) {
-      log_depth += std::log(static_cast<double>(point.depth) * placed.scale);
-      ++count;
-    }
+  for_each_placed(poses, segment, 0.0, [&](const PlacedView& placed) {
+    log_depth += placed.log_depth + static_cast<double>(placed.count) * std::log(placed.scale);
+    count += placed.count;
   });
   const double mean = count > 0 ? std::exp(log_depth / static_cast<double>(count)) : 1.0;
+  const int64_t most = options_.most_points;
+  const double share = static_cast<double>(most) / static_cast<double>(std::max(count, most));
   tools::VoxelGrid grid(options_.voxel * mean, kMostVoxels);
-  for_each_placed(poses, segment, true, [&](const PlacedView& placed) {
-    for_each_point(placed, camera, [&](const std::array<double, 3>& world, const Point& point) {
-      std::array<double, 3> colour{};
-      for (size_t i = 0; i < 3; ++i) colour[i] = point.colour[i];
-      const auto confidence = static_cast<double>(point.confidence);
-      // Confidences of any scale: none may weigh nothing, or all.
-      grid.add(world, colour, confidence, std::clamp(confidence, 1e-3, 1e3));
-    });
+  for_each_placed(poses, segment, share, [&](const PlacedView& placed) {
+    for_each_point(placed, share, camera,
+                   [&](const std::array<double, 3>& world, const Point& point) {
+                     std::array<double, 3> colour{};
+                     for (size_t i = 0; i < 3; ++i) colour[i] = point.colour[i];
+                     const auto confidence = static_cast<double>(point.confidence);
+                     // Confidences of any scale: none may weigh nothing, or all.
+                     grid.add(world, colour, confidence, std::clamp(confidence, 1e-3, 1e3));
+                   });
   });
   return grid;
 }
@@ -341,14 +380,13 @@ int64_t Cloud::write(const std::filesystem::path& path, const RunData& poses,
       put_vertex(point.position, colour, static_cast<float>(point.confidence), &file);
     }
   } else {
-    for_each_placed(poses, segment, false, [&](const PlacedView& placed) {
-      count += static_cast<int64_t>(placed.points->size());
-    });
+    for_each_placed(poses, segment, 0.0, [&](const PlacedView& placed) { count += placed.count; });
     file << ply_header(count, segment);
-    for_each_placed(poses, segment, true, [&](const PlacedView& placed) {
-      for_each_point(placed, camera, [&](const std::array<double, 3>& world, const Point& point) {
-        put_vertex(world, point.colour, point.confidence, &file);
-      });
+    for_each_placed(poses, segment, 1.0, [&](const PlacedView& placed) {
+      for_each_point(placed, 1.0, camera,
+                     [&](const std::array<double, 3>& world, const Point& point) {
+                       put_vertex(world, point.colour, point.confidence, &file);
+                     });
     });
   }
   file.close();

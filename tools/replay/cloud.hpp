@@ -33,6 +33,9 @@ struct CloudOptions {
   bool one_camera = false;
   /// Cubes with one point each have this share of the mean depth as their side. 0: all points.
   double voxel = 0.0;
+  /// Points that are sorted into cubes. Of a run with more an even share of each view is taken, so
+  /// that a long run does not take longer to end.
+  int64_t most_points = 1 << 20;
 };
 
 /// CloudOptions::voxel of unisim-replay: a third of the distance of two points of one view.
@@ -107,8 +110,9 @@ class Cloud : public pipeline::Listener {
     int32_t index = 0;  ///< of the view in the window
     double center_sigma = std::numeric_limits<double>::infinity();
     double mean_confidence = 0.0;
-    double focal_px = 0.0;  ///< of the window, which the points are made with
-    std::vector<Point> points;
+    double focal_px = 0.0;      ///< of the window, which the points are made with
+    std::vector<Point> points;  // any first part of them is an even choice
+    double log_depth = 0.0;     // sum over points
   };
 
   /// Head of a view on disk; its points follow.
@@ -117,10 +121,13 @@ class Cloud : public pipeline::Listener {
     int32_t submap_id;
     int64_t points;
     double focal_px;
+    double log_depth;
   };
 
   struct PlacedView {
-    const std::vector<Point>* points;
+    const Point* points;  // as many as were asked for
+    int64_t count;        // of all
+    double log_depth;
     double focal_px;
     const unisim_pose* pose;
     double scale;  // submap unit to the world
@@ -128,10 +135,11 @@ class Cloud : public pipeline::Listener {
 
   void settle(std::map<int32_t, View>::iterator view);
   template <typename Each>
-  void for_each_placed(const RunData& poses, int32_t segment, bool with_points, Each each) const;
+  void for_each_placed(const RunData& poses, int32_t segment, double share, Each each) const;
   template <typename Each>
-  void for_each_point(const PlacedView& placed, const CloudCamera& camera, Each each) const;
-  void take_depth(const unisim_depth_map& map, double focal_px, View* view);
+  void for_each_point(const PlacedView& placed, double share, const CloudCamera& camera,
+                      Each each) const;
+  void take_depth(int32_t id, const unisim_depth_map& map, double focal_px, View* view);
   tools::VoxelGrid thinned(const RunData& poses, int32_t segment, const CloudCamera& camera) const;
   static std::vector<Rgb> colours_of(const View& view, const unisim_depth_map& map);
   static Rgb colour_at(const View& view, double x, double y);
