@@ -192,8 +192,9 @@ typedef struct unisim_predictor_info {
   const char* no_start;  /**< while not initialised: one line of what was seen, why it gave no start
                             and what would help; NULL: nothing to tell. Borrowed until the next
                             call */
-  const struct unisim_place_report* places; /**< newest looks at places, in order; borrowed
-                                                until the next call */
+  const struct unisim_place_report* places; /**< newest looks at places, in order; borrowed until
+                                                the next call. Verdicts on the newest hundreds may
+                                                still change */
   int32_t place_count;                      /**< their number */
   int32_t loops_tried;    /**< old keyframes looked at for a loop, in the whole run */
   int32_t loops_accepted; /**< of these: counted loops */
@@ -203,7 +204,7 @@ typedef struct unisim_predictor_info {
   double center_y_px; /**< the right and down; 0, 0: the middle, or not known */
   int32_t loops_undone; /**< of those accepted: hold the map no longer, since they do not agree with
                            it. Filled by the pipeline for the loops it closes itself */
-  int32_t reserved;     /**< 0 */
+  int32_t places_past;  /**< looks older than these: how many are no longer among them */
   double readout_ms;    /**< of a rolling shutter, from the first row to the last, last estimate; 0:
                              all rows at once, or not known */
 } unisim_predictor_info;

@@ -17,7 +17,10 @@ class PlaceReports {
   PlaceReports() { reports_.reserve(kMost); }
 
   void add(const unisim_place_report& report) {
-    if (reports_.size() == kMost) reports_.erase(reports_.begin(), reports_.begin() + kMost / 2);
+    if (reports_.size() == kMost) {
+      reports_.erase(reports_.begin(), reports_.begin() + kMost / 2);
+      past_ += kMost / 2;
+    }
     reports_.push_back(report);
     tried_ += report.asked == UNISIM_PLACE_LOOP ? 1 : 0;
   }
@@ -40,6 +43,7 @@ class PlaceReports {
   void info(unisim_predictor_info* out) const {
     out->places = reports_.data();
     out->place_count = static_cast<int32_t>(reports_.size());
+    out->places_past = past_;
     out->loops_tried = tried_;
     out->loops_accepted = loops_;
   }
@@ -50,6 +54,7 @@ class PlaceReports {
  private:
   static constexpr size_t kMost = 1024;
   std::vector<unisim_place_report> reports_;
+  int32_t past_ = 0;
   int32_t tried_ = 0;
   int32_t loops_ = 0;
 };

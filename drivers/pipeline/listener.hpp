@@ -100,6 +100,10 @@ class Listener {
   /// The graph was optimised; windows, revisions and loops told before are in it.
   virtual void on_optimized(const unisim_report& /*report*/) {}
 
+  /// An older keyframe was looked at long ago, and the verdict stands: in order, each once. Those
+  /// not told yet are in Result::predictor at the end of a run.
+  virtual void on_place(const unisim_place_report& /*look*/) {}
+
   /// A keyframe or submap has left the sliding window; see unisim_next_retired().
   /// @param pose of the keyframe as it stands now; NULL for a submap
   virtual void on_retired(const unisim_retired& /*retired*/, const unisim_pose* /*pose*/) {}

@@ -130,6 +130,7 @@ class MapBuilder {
   bool begin_loops();
   Step serve_loops();
   Step take_loop();
+  void tell_places();
   void begin_turn();
   bool turn_is_due();
   Step end_turn();
@@ -154,6 +155,7 @@ class MapBuilder {
   int32_t image_width_ = 0;  // of the frames
   int32_t image_height_ = 0;
   std::unique_ptr<LoopCloser> loops_;  // NULL: none are looked for
+  int32_t places_told_ = 0;            // looks, from the first of the run on
   int32_t last_settled_ = 0;
   int32_t newest_ = -1;  // keyframe
   std::unique_ptr<BackLane> lane_;

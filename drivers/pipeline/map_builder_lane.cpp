@@ -20,10 +20,12 @@ Step MapBuilder::serve_back() {
     if (step == Step::kOk) step = serve_revisions();
     if (step == Step::kOk) step = serve_wide_windows();
     if (step == Step::kOk) step = serve_loops();
+    tell_places();
     return step;
   }
   if (lane_->busy() && !turn_is_due()) return Step::kOk;
   const Step step = lane_->busy() ? end_turn() : Step::kOk;
+  tell_places();
   if (step == Step::kOk) begin_turn();
   return step;
 }

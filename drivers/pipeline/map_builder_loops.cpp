@@ -6,6 +6,9 @@
 namespace unisim::pipeline {
 namespace {
 
+/// Of the newest looks the verdict may change: a second keyframe or a window may still come.
+constexpr int32_t kOpenLooks = 256;
+
 const char* reason_of(unisim_status status, int32_t submap_id) {
   if (status == UNISIM_OK)
     return submap_id >= 0 ? nullptr : "refused by the map: its depths scatter";
@@ -48,6 +51,20 @@ Step MapBuilder::take_loop() {
   loops_->settle(refused);
   if (status == UNISIM_ERR_INTERNAL) return session_failed("unisim_add_loop", status);
   return refused == nullptr ? optimize(1) : Step::kOk;
+}
+
+/// To be called while no search runs.
+void MapBuilder::tell_places() {
+  unisim_predictor_info now{};
+  if (loops_ != nullptr) {
+    loops_->info(&now);
+  } else if (lane_ == nullptr) {
+    parts_.predictor->info(parts_.predictor, &now);
+  }
+  for (; places_told_ + kOpenLooks < now.places_past + now.place_count; ++places_told_) {
+    const unisim_place_report& look = now.places[places_told_ - now.places_past];
+    for (Listener* listener : *parts_.listeners) listener->on_place(look);
+  }
 }
 
 void MapBuilder::info(unisim_predictor_info* out) const {

@@ -26,6 +26,7 @@ class Recorder : public Listener {
   void on_live_pose(const LivePose& pose) override { live.push_back(pose); }
   void on_keyframe_pose(const unisim_pose& pose) override { posed.push_back(pose); }
   void on_between_pose(const BetweenPose& pose) override { between.push_back(pose); }
+  void on_place(const unisim_place_report& look) override { places.push_back(look); }
   void on_retired(const unisim_retired& one, const unisim_pose*) override {
     retired += one.kind == UNISIM_RETIRED_KEYFRAME ? 1 : 0;
     book.take(one);
@@ -45,6 +46,7 @@ class Recorder : public Listener {
   std::vector<LivePose> live;
   std::vector<unisim_pose> posed;  // keyframes
   std::vector<BetweenPose> between;
+  std::vector<unisim_place_report> places;
   PoseBook book;
 };
 

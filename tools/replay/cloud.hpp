@@ -35,7 +35,7 @@ struct CloudOptions {
   double voxel = 0.0;
   /// Points that are sorted into cubes. Of a run with more an even share of each view is taken, so
   /// that a long run does not take longer to end.
-  int64_t most_points = 1 << 20;
+  int64_t most_points = 1 << 19;
 };
 
 /// CloudOptions::voxel of unisim-replay: a third of the distance of two points of one view.

@@ -70,11 +70,14 @@ std::string keyframe_table(const RunData& data) {
   return text;
 }
 
-std::string place_table(const unisim_predictor_info& info) {
+std::string place_table(const pipeline::RecordFile<unisim_place_report>& told,
+                        const unisim_predictor_info& info) {
   std::string text =
       "keyframe,candidate,asked,score,matches,pose_inliers,patch_inliers,in_view,accepted,reason\n";
-  for (int32_t k = 0; k < info.place_count; ++k) {
-    const unisim_place_report& report = info.places[k];
+  const int64_t all = info.places_past + info.place_count;
+  for (int64_t k = 0; k < all; ++k) {
+    const unisim_place_report report =
+        k < told.size() ? told.get(k) : info.places[k - info.places_past];
     text += format("%d,%d,%s,%d,%d,%d,%d,%d,%d,%s\n", report.keyframe, report.candidate,
                    asked_for(report.asked), report.score, report.matches, report.pose_inliers,
                    report.patch_inliers, report.in_view, report.accepted, report.reason);

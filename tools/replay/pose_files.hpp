@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/pipeline/temporary_file.hpp"
 #include "drivers/predictor.h"
 #include "tools/replay/run_data.hpp"
 
@@ -29,6 +30,9 @@ std::string trajectory_text(const std::string& title, const std::vector<unisim_s
 std::string keyframe_table(const RunData& data);
 
 /// CSV: one line per older keyframe that a keyframe was compared with, and what came of it.
-std::string place_table(const unisim_predictor_info& info);
+/// @param told those whose verdict stood while the run went on
+/// @param info of its end
+std::string place_table(const pipeline::RecordFile<unisim_place_report>& told,
+                        const unisim_predictor_info& info);
 
 }  // namespace unisim::replay

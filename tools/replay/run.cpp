@@ -171,7 +171,7 @@ int report_nothing(const pipeline::Result& result, const Options& options) {
   return code;
 }
 
-void write_files(const Run& run, OutputFolder* folder) {
+void write_files(const Run& run, const RunRecord& record, OutputFolder* folder) {
   const double scale = run.scores.ate ? run.scores.ate->T_truth_estimate.s : 0.0;
   const SegmentScale* known = run.data.main_scale();
   folder->write_text("trajectory.tum",
@@ -186,7 +186,7 @@ void write_files(const Run& run, OutputFolder* folder) {
                                        run.data.map, scale, known));
   }
   folder->write_text("keyframes.csv", keyframe_table(run.data));
-  folder->write_text("places.csv", place_table(run.result.predictor));
+  folder->write_text("places.csv", place_table(record.places(), run.result.predictor));
   folder->write_text("summary.json", tools::json_text(summary_json(run), 1) + "\n");
 }
 
@@ -243,7 +243,7 @@ class Results {
     const Scores scores = score(state.truth, data);
     const Run run = {options, state.result, data, state.truth, scores, state.format};
     folder_.add(live_.path(), live_.problem());
-    write_files(run, &folder_);
+    write_files(run, record_, &folder_);
     write_map(run, *cloud_, &folder_);
     write_page(run, messages, &folder_);
     if (state.map_problem != nullptr) folder_.add(options.save_map, *state.map_problem);

@@ -17,7 +17,7 @@ class RunRecord : public pipeline::Listener {
  public:
   /// @param folder for temporary files
   explicit RunRecord(const std::string& folder)
-      : poses_(folder), keyframes_(folder), live_(folder), between_(folder) {}
+      : poses_(folder), keyframes_(folder), live_(folder), between_(folder), places_(folder) {}
 
   void on_keyframe(int32_t id, const unisim_frame& frame) override;
   void on_progress(const pipeline::Progress& progress) override;
@@ -28,6 +28,9 @@ class RunRecord : public pipeline::Listener {
     poses_.take(retired, pose);
   }
 
+  void on_place(const unisim_place_report& look) override { places_.append(look); }
+
+  const pipeline::RecordFile<unisim_place_report>& places() const { return places_; }
   const pipeline::RecordFile<unisim_stamped_pose>& live() const { return live_; }
   const pipeline::RecordFile<pipeline::BetweenPose>& between() const { return between_; }
   /// Poses of keyframes, kept by the session or not.
@@ -52,6 +55,7 @@ class RunRecord : public pipeline::Listener {
   pipeline::RecordFile<Keyframe> keyframes_;
   pipeline::RecordFile<unisim_stamped_pose> live_;
   pipeline::RecordFile<pipeline::BetweenPose> between_;
+  pipeline::RecordFile<unisim_place_report> places_;
   int32_t submaps_ = 0;
   int32_t newest_ = -1;  // keyframe whose reason is still to come
 };
