@@ -27,6 +27,7 @@ struct Progress {
   int32_t keyframes = 0;       ///< of this run
   int64_t frames_located = 0;  ///< found in the map, with Options::localise
   int32_t submaps = 0;
+  int32_t loops = 0;
   int32_t state = 0;      ///< UNISIM_STATE_*
   int32_t reason = 0;     ///< UNISIM_REASON_*, see TrackingReason; 0: all is well
   int64_t newest_ns = 0;  ///< time stamp of the newest frame

@@ -350,6 +350,7 @@ void Pipeline::Impl::tell_progress() {
     // Nothing changes in the session while frames are only looked for in its map.
     if (!localiser_) result_.progress.state = info.state;
     result_.progress.submaps = info.submaps;
+    result_.progress.loops = info.loops;
     result_.progress.reason = reason_.of_state(result_.progress.state);
   }
   for (Listener* listener : listeners_) listener->on_progress(result_.progress);

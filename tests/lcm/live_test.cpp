@@ -2,6 +2,7 @@
 // unisim-live on images that another program sends.
 #include <lcm/lcm.h>
 
+#include <atomic>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -81,6 +82,33 @@ TEST_CASE("images that come over LCM are tracked, with the stamps they came with
     ++recorded;
   }
   CHECK(recorded >= 5);
+}
+
+TEST_CASE("a mask that does not fit images over LCM ends the run at the first of them") {
+  UNISIM_SKIP_WITHOUT_NETWORK();
+  const TempFolder folder;
+  write_file(folder / "mask.pgm", "P5 40 30 255\n" + std::string(40 * 30, '\1'));
+  const Made made = make_publisher("");
+  REQUIRE(made.publisher != nullptr);
+  const std::vector<uint8_t> pixels(size_t{160} * 120, 90);
+  const unisim_image image = {pixels.data(), 160, 120, 160, UNISIM_PIXEL_GRAY8};
+  // What is sent before it listens is not heard: sent until it has ended.
+  std::atomic<bool> ended{false};
+  std::thread sender([&] {
+    for (int64_t k = 1; !ended; ++k) {
+      unisim_lcm_publish_image(made.publisher.get(), k * 40000000, &image);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  });
+  const ProgramResult live = run_program(
+      UNISIM_LIVE_PROGRAM,
+      {"--device", "lcm://", "--mask", folder / "mask.pgm", "--out", folder / "out", "--quiet"});
+  ended = true;
+  sender.join();
+  CHECK(live.code == 4);
+  CHECK(has(live.err,
+            "unisim-live: geometric predictor: the mask has 40x30 pixels, the images 160x120; give "
+            "a mask of the images' size"));
 }
 
 TEST_CASE("odometry that comes over LCM makes a live run metric") {

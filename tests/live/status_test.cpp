@@ -51,6 +51,18 @@ TEST_CASE("the line says why there is no start, and whether lengths are metres")
   CHECK(has(line(progress), ", metric +- 2 % (1 unit = 0.5 m)"));
 }
 
+TEST_CASE("the line has what waits, what was given up and what the map is made of") {
+  const PoseAge ages;
+  StatusText line(&ages);
+  unisim::pipeline::Progress progress;
+  progress.frames_waiting = 1;
+  progress.frames_dropped = 23;
+  progress.keyframes = 45;
+  progress.submaps = 6;
+  progress.loops = 7;
+  CHECK(has(line(progress), "1 waiting, 23 dropped, 45 keyframes, 6 submaps, 7 loops, "));
+}
+
 TEST_CASE("the warmest zone of a board is its temperature, a board without zones has none") {
   const TempFolder folder;
   CHECK(temperature_c(folder / "absent") < 0.0);

@@ -239,25 +239,3 @@ TEST_CASE("a predictor whose table ends before the places has no loops") {
   CHECK(result.predictor.loops_tried == 0);
   CHECK(walk.predictor.distant_asked() == 0);
 }
-
-TEST_CASE("every look at a place is told once, in order, when its verdict stands") {
-  Walk walk;
-  walk.options.loops.tries = 8;
-  const unisim_predictor_info& info = walk.go().predictor;
-  const std::vector<unisim_place_report>& told = walk.listener.places;
-  REQUIRE(info.places_past > 0);  // more than are kept
-  CHECK(info.places_past + info.place_count == info.loops_tried);
-  REQUIRE(static_cast<int32_t>(told.size()) >= info.places_past);
-  const auto by_keyframe = [](const unisim_place_report& a, const unisim_place_report& b) {
-    return a.keyframe < b.keyframe;
-  };
-  CHECK(std::is_sorted(told.begin(), told.end(), by_keyframe));
-  int changed = 0;
-  for (size_t k = static_cast<size_t>(info.places_past); k < told.size(); ++k) {
-    const unisim_place_report& held = info.places[k - static_cast<size_t>(info.places_past)];
-    const bool same = told[k].keyframe == held.keyframe && told[k].candidate == held.candidate &&
-                      told[k].accepted == held.accepted && told[k].reason == held.reason;
-    changed += same ? 0 : 1;
-  }
-  CHECK(changed == 0);
-}

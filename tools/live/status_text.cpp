@@ -10,12 +10,12 @@ namespace unisim::live {
 std::string StatusText::operator()(const pipeline::Progress& progress) {
   constexpr double kMega = 1e6;
   std::string text = drivers::format(
-      "%s, %.0f frames/s, pose age %.0f ms (p95 %.0f), %lld dropped, %d keyframes, %d submaps, "
-      "%.0f MB",
+      "%s, %.0f frames/s, pose age %.0f ms (p95 %.0f), %d waiting, %lld dropped, %d keyframes, "
+      "%d submaps, %d loops, %.0f MB",
       replay::state_text(progress).c_str(), rate_.update(progress.frames),
-      ages_->ages().percentile_ms(0.5), ages_->ages().percentile_ms(0.95),
+      ages_->ages().percentile_ms(0.5), ages_->ages().percentile_ms(0.95), progress.frames_waiting,
       static_cast<long long>(progress.frames_dropped), progress.keyframes, progress.submaps,
-      static_cast<double>(resident_bytes()) / kMega);
+      progress.loops, static_cast<double>(resident_bytes()) / kMega);
   if (progress.metre.per_unit > 0.0) {
     text += drivers::format(", metric +- %.2g %% (1 unit = %.3g m)", 100.0 * progress.metre.sigma,
                             progress.metre.per_unit);

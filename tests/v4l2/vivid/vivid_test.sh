@@ -8,27 +8,14 @@ if [ $# -ne 3 ]; then
   exit 2
 fi
 readonly probe=$1 kernel=$2 scratch=$3
-
-skip() {
-  echo "skipped: $*"
-  exit 0
-}
-
-for program in qemu-system-x86_64 busybox cpio; do
-  command -v $program >/dev/null || skip "no $program here (tools/bootstrap.sh dev)"
-done
-[ "$(uname -m)" = x86_64 ] || skip "the kernel that is fetched is for x86-64"
-[ -s "$kernel/modules/order" ] || skip "no kernel in $kernel (tools/fetch_kernel.sh)"
+# shellcheck source-path=SCRIPTDIR source=../../support/emulated_machine.sh
+. "$(dirname "${BASH_SOURCE[0]}")/../../support/emulated_machine.sh"
+need_machine "$kernel" modules
 
 # What the machine runs first, and instead of all else.
 write_init() {
-  cat >"$1/init" <<'INIT'
-#!/bin/busybox sh
-/bin/busybox mkdir -p /proc /sys /dev
-/bin/busybox mount -t proc none /proc
-/bin/busybox mount -t sysfs none /sys
-/bin/busybox mount -t devtmpfs none /dev
-/bin/busybox --install -s /bin
+  init_head >"$1/init"
+  cat >>"$1/init" <<'INIT'
 while read -r module; do
   [ "$module" = vivid.ko ] || insmod "/modules/$module"
 done </modules/order
@@ -46,27 +33,11 @@ LOAD
   chmod +x "$1/init" "$1/load_camera"
 }
 
-pack() {
-  rm -rf "$scratch/root"
-  mkdir -p "$scratch/root/bin"
-  cp "$(command -v busybox)" "$scratch/root/bin/busybox"
-  ln -s busybox "$scratch/root/bin/sh"
-  cp -r "$kernel/modules" "$scratch/root/modules"
-  cp "$probe" "$scratch/root/probe"
-  write_init "$scratch/root"
-  (cd "$scratch/root" && find . | cpio --quiet -o -H newc | gzip -1) >"$scratch/initramfs.gz"
-}
-
-# No acceleration: it would behave otherwise where the host has it.
-boot() {
-  timeout 500 qemu-system-x86_64 -accel tcg -m 512 -smp 1 -nographic -no-reboot -nodefaults \
-    -serial stdio -kernel "$kernel/vmlinuz" -initrd "$scratch/initramfs.gz" \
-    -append "console=ttyS0 quiet panic=-1 rdinit=/init" </dev/null 2>&1 | tr -d '\r'
-}
-
-mkdir -p "$scratch"
-pack
-boot | tee "$scratch/log" | grep -a '^RESULT' || true
+lay_out "$scratch/root" "$kernel/modules"
+cp "$probe" "$scratch/root/probe"
+write_init "$scratch/root"
+pack "$scratch/root" "$scratch/initramfs.gz"
+boot "$kernel" "$scratch/initramfs.gz" -m 512 -smp 1 | tee "$scratch/log" | grep -a '^RESULT' || true
 if ! grep -aq '^RESULT all is well' "$scratch/log"; then
   echo "the machine's last words:"
   tail -n 20 "$scratch/log"
