@@ -32,8 +32,14 @@ bool same(const std::array<int64_t, 3>& a, const std::array<int64_t, 3>& b) {
 
 }  // namespace
 
-VoxelGrid::VoxelGrid(double side, size_t capacity)
-    : side_(side), capacity_(std::max<size_t>(capacity, 8)), slots_(64, 0) {}
+VoxelGrid::VoxelGrid(double side, size_t capacity, size_t expected)
+    : side_(side), capacity_(std::max<size_t>(capacity, 8)) {
+  const size_t cubes = std::min(expected, capacity_);
+  cells_.reserve(cubes);
+  size_t slots = 64;
+  while (slots < 2 * cubes) slots *= 2;
+  slots_.assign(slots, 0);
+}
 
 size_t VoxelGrid::slot_of(const std::array<int64_t, 3>& key) const {
   size_t slot = mix(key) & (slots_.size() - 1);

@@ -23,7 +23,8 @@ class VoxelGrid {
  public:
   /// @param side     of a cube, above 0
   /// @param capacity most cubes, at least 8
-  VoxelGrid(double side, size_t capacity);
+  /// @param expected points that will come: memory for their cubes is taken at once
+  VoxelGrid(double side, size_t capacity, size_t expected = 0);
 
   /// One more point. @param weight above 0
   void add(const std::array<double, 3>& position, const std::array<double, 3>& colour,

@@ -55,7 +55,9 @@ void FrameRecorder::on_frame(const unisim_frame& frame) {
   std::unique_lock<std::mutex> lock(mutex_);
   if (!problem_.empty()) return;
   if (filled_ == slots_.size()) {
-    problem_ = folder_ + ": the disk is too slow for the camera; the recording ends after " +
+    problem_ = folder_ +
+               ": images come faster than this disk and processor write them; the recording ends "
+               "after " +
                std::to_string(written_ + static_cast<int64_t>(filled_)) + " frames";
     return;
   }

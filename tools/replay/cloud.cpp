@@ -350,7 +350,8 @@ tools::VoxelGrid Cloud::thinned(const RunData& poses, int32_t segment,
   const double mean = count > 0 ? std::exp(log_depth / static_cast<double>(count)) : 1.0;
   const int64_t most = options_.most_points;
   const double share = static_cast<double>(most) / static_cast<double>(std::max(count, most));
-  tools::VoxelGrid grid(options_.voxel * mean, kMostVoxels);
+  tools::VoxelGrid grid(options_.voxel * mean, kMostVoxels,
+                        static_cast<size_t>(std::min(count, most)));
   for_each_placed(poses, segment, share, [&](const PlacedView& placed) {
     for_each_point(placed, share, camera,
                    [&](const std::array<double, 3>& world, const Point& point) {
