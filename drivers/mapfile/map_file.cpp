@@ -16,6 +16,7 @@ constexpr const char* kAbout = "about";
 constexpr const char* kSession = "session";
 constexpr const char* kPredictor = "predictor";
 constexpr const char* kLeft = "left";
+constexpr const char* kWindows = "windows";
 constexpr int32_t kMostText = 4096;
 
 void archive_text(drivers::Archive* io, std::string* text) {
@@ -64,7 +65,7 @@ std::string load_problem(const unisim_session* session, unisim_status status) {
 }  // namespace
 
 void save_map(const std::string& path, About about, const unisim_session* session,
-              unisim_predictor* predictor, Bytes left) {
+              unisim_predictor* predictor, Bytes left, Bytes windows) {
   if (!drivers::has_maps(*predictor)) {
     throw Error(Error::Kind::kInput, std::string("maps are kept by the geometric predictor; the ") +
                                          predictor->name + " predictor has none");
@@ -89,6 +90,7 @@ void save_map(const std::string& path, About about, const unisim_session* sessio
                                    {kSession, std::move(of_session)},
                                    {kPredictor, std::move(of_predictor)}};
   if (!left.empty()) sections.push_back({kLeft, std::move(left)});
+  if (!windows.empty()) sections.push_back({kWindows, std::move(windows)});
   write_sections(path, sections);
 }
 
@@ -118,10 +120,14 @@ const Bytes& MapFile::part(const char* name) const {
   return *found;
 }
 
-Bytes MapFile::left() const {
-  const Bytes* const found = find(kLeft);
+Bytes MapFile::optional(const char* name) const {
+  const Bytes* const found = find(name);
   return found != nullptr ? *found : Bytes();
 }
+
+Bytes MapFile::left() const { return optional(kLeft); }
+
+Bytes MapFile::windows() const { return optional(kWindows); }
 
 int32_t MapFile::load_session(unisim_session* session) const {
   ByteSource source{part(kSession)};

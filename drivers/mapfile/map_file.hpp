@@ -24,9 +24,10 @@ struct About {
 /// Writes the map of a run that has ended, see write_sections(). Throws Error; then the file is as
 /// it was.
 /// @param about all but predictor and keyframes
-/// @param left  what has left the session's window, as its host keeps it; empty: nothing
+/// @param left    what has left the session's window, as its host keeps it; empty: nothing
+/// @param windows what the predictor may measure again, as the host keeps it; empty: nothing
 void save_map(const std::string& path, About about, const unisim_session* session,
-              unisim_predictor* predictor, Bytes left);
+              unisim_predictor* predictor, Bytes left, Bytes windows);
 
 /// A map in memory, until it has been handed on.
 class MapFile {
@@ -38,12 +39,15 @@ class MapFile {
   const std::string& path() const { return path_; }
   /// What had left the session's window; empty: nothing, or it was not kept.
   Bytes left() const;
+  /// What the predictor may measure again; empty: nothing, or it was not kept.
+  Bytes windows() const;
   /// Hands the map to a session without keyframes and to a predictor before its first frame, and
   /// forgets it. Throws Error; then neither is of use.
   void hand_over(unisim_session* session, unisim_predictor* predictor);
 
  private:
   const Bytes* find(const char* name) const;
+  Bytes optional(const char* name) const;
   const Bytes& part(const char* name) const;
   int32_t load_session(unisim_session* session) const;
   int32_t load_predictor(unisim_predictor* predictor) const;

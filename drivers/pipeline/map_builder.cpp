@@ -11,7 +11,7 @@ namespace unisim::pipeline {
 
 MapBuilder::MapBuilder(const Parts& parts, size_t max_submaps)
     : parts_(parts),
-      tokens_(max_submaps, {-1, -1}),
+      windows_(max_submaps),
       wide_windows_(parts.session),
       distances_(parts.session, parts.odometry, parts.window_size, parts.messages),
       metres_(parts.session) {
@@ -30,7 +30,7 @@ Step MapBuilder::session_failed(const char* call, unisim_status status) {
 
 void MapBuilder::go_on_after(int32_t keyframes) {
   newest_ = last_settled_ = keyframes - 1;
-  // The windows of the map end there, and no revision reaches them.
+  // The windows of the map end there.
   wide_windows_.note_gap();
 }
 
@@ -179,7 +179,7 @@ Step MapBuilder::take_window(const unisim_request& request, const unisim_window_
                              refusal_text(known ? info.refused_window : unisim_refusal{}));
     return Step::kOk;
   }
-  tokens_[next_token_++ % tokens_.size()] = {window.token, submap_id};
+  windows_.add(window, submap_id);
   take_unit(submap_id, window);
   take_height(submap_id, window);
   for (Listener* listener : *parts_.listeners) listener->on_window(submap_id, window);
@@ -257,19 +257,15 @@ Step MapBuilder::serve_revisions() {
 }
 
 void MapBuilder::take_revision(const unisim_window_revision& revision) {
-  const auto same = [&](const TokenOfSubmap& entry) {
-    return entry.submap_id >= 0 && entry.token == revision.token;
-  };
-  const auto found = std::find_if(tokens_.begin(), tokens_.end(), same);
-  if (found == tokens_.end()) return;
-  const unisim_status status = parts_.session->update_submap(found->submap_id, revision);
+  const int32_t submap_id = windows_.submap_of(revision.token);
+  if (submap_id < 0) return;
+  const unisim_status status = parts_.session->update_submap(submap_id, revision);
   if (status != UNISIM_OK) {
-    parts_.messages->say(MessageKind::kInvalid, "revision of submap " +
-                                                    std::to_string(found->submap_id) + ": " +
-                                                    unisim_status_string(status));
+    parts_.messages->say(MessageKind::kInvalid, "revision of submap " + std::to_string(submap_id) +
+                                                    ": " + unisim_status_string(status));
     return;
   }
-  for (Listener* listener : *parts_.listeners) listener->on_revision(found->submap_id, revision);
+  for (Listener* listener : *parts_.listeners) listener->on_revision(submap_id, revision);
 }
 
 Step MapBuilder::serve_wide_windows() {

@@ -16,6 +16,7 @@
 #include "drivers/pipeline/metre_book.hpp"
 #include "drivers/pipeline/session_client.hpp"
 #include "drivers/pipeline/wide_windows.hpp"
+#include "drivers/pipeline/window_book.hpp"
 #include "drivers/predictor.h"
 #include "unisim/unisim.h"
 
@@ -95,6 +96,9 @@ class MapBuilder {
   /// How long the units are, as the last optimisation left them.
   MetreBook& metres() { return metres_; }
 
+  /// Windows of this run and of the map it goes on in.
+  WindowBook& windows() { return windows_; }
+
   const LaneReport& lane_report() const { return report_; }
 
   /// What the predictor says of the run, and of loops what is known here.
@@ -104,11 +108,6 @@ class MapBuilder {
   std::string failure() const { return failure_.empty() ? predictor_message() : failure_; }
 
  private:
-  struct TokenOfSubmap {
-    int64_t token;
-    int32_t submap_id;
-  };
-
   Step serve_windows();
   Step serve_revisions();
   Step serve_wide_windows();
@@ -147,8 +146,7 @@ class MapBuilder {
   std::string predictor_message() const { return parts_.predictor->message(parts_.predictor); }
 
   Parts parts_;
-  std::vector<TokenOfSubmap> tokens_;  // a ring of the newest
-  size_t next_token_ = 0;
+  WindowBook windows_;
   WideWindows wide_windows_;
   DistanceFeeder distances_;
   MetreBook metres_;

@@ -23,7 +23,8 @@ void save_map(const std::string& path, mapfile::About about, const Pipeline& pip
   }
   about.image_width = result.image_width;
   about.image_height = result.image_height;
-  mapfile::save_map(path, std::move(about), pipeline.session(), predictor, pipeline.retired());
+  mapfile::save_map(path, std::move(about), pipeline.session(), predictor, pipeline.retired(),
+                    pipeline.windows());
 }
 
 }  // namespace unisim::pipeline

@@ -47,6 +47,7 @@ class Pipeline::Impl {
   const Result& result() const { return result_; }
   unisim_session* session() const { return session_.handle(); }
   mapfile::Bytes retired() const { return retired_ ? retired_->bytes() : mapfile::Bytes(); }
+  mapfile::Bytes windows() const { return builder_->windows().bytes(); }
   Metre metre(int32_t segment) { return builder_->metres().of(segment); }
 
  private:
@@ -116,10 +117,13 @@ Preparation Pipeline::Impl::load(mapfile::MapFile* map) {
     if (preparation.answer != Preparation::Answer::kReady) return preparation;
   }
   const mapfile::Bytes left = map->left();
+  const mapfile::Bytes windows = map->windows();
   map->hand_over(session_.handle(), predictor_);
   if (session_.get_info(&before_) != UNISIM_OK) before_ = {};
   RetiredLog::tell(left, *map, session_.handle(), before_.keyframes, listeners_);
   builder_->go_on_after(before_.keyframes);
+  if (!options_.localise)
+    builder_->windows().load(windows, map->path(), before_.keyframes, predictor_);
   poses_->begin_at(before_.keyframes);
   if (options_.localise) localiser_.emplace(session_.handle(), predictor_);
   return {};
@@ -375,6 +379,8 @@ const Result& Pipeline::run() { return impl_->run(); }
 const Result& Pipeline::result() const { return impl_->result(); }
 
 mapfile::Bytes Pipeline::retired() const { return impl_->retired(); }
+
+mapfile::Bytes Pipeline::windows() const { return impl_->windows(); }
 
 Metre Pipeline::metre(int32_t segment) const { return impl_->metre(segment); }
 

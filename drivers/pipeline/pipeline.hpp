@@ -102,6 +102,8 @@ class Pipeline {
 
   /// What has left the window, as a map file keeps it; with Options::retired_folder.
   mapfile::Bytes retired() const;
+  /// The windows that the predictor may measure again, as a map file keeps them.
+  mapfile::Bytes windows() const;
 
   /// How long the unit of a segment is, as the last optimisation left it: for listeners.
   Metre metre(int32_t segment) const;
