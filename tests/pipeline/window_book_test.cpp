@@ -3,11 +3,16 @@
 // submaps.
 #include "drivers/pipeline/window_book.hpp"
 
+#include <set>
 #include <vector>
 
+#include "drivers/pipeline/map_saving.hpp"
+#include "tests/pipeline/scripted_run.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/temp_folder.hpp"
 #include "tests/support/text.hpp"
 
+using namespace unisim::testing;
 using unisim::mapfile::Bytes;
 using unisim::pipeline::WindowBook;
 
@@ -110,4 +115,32 @@ TEST_CASE("windows of a map that are none are refused by name") {
     flipped[at] ^= 0x80;
     static_cast<void>(why(flipped, 6));  // refused or other windows: nothing is read past its end
   }
+}
+
+TEST_CASE("submaps of a map that is gone on with take better measurements") {
+  const TempFolder folder;
+  const std::string path = folder / "first.map";
+  Run first;
+  first.predictor.revises = false;
+  REQUIRE(first.go().outcome == Outcome::kFinished);
+  const int32_t submaps = first.info().submaps;
+  REQUIRE(submaps > 2);
+  unisim::pipeline::save_map(path, {}, *first.pipeline, first.predictor.table());
+
+  struct Revised : Listener {
+    std::set<int32_t> submaps;
+    void on_revision(int32_t submap_id, const unisim_window_revision&) override {
+      submaps.insert(submap_id);
+    }
+  } revised;
+  Run second(20);
+  second.listeners.push_back(&revised);
+  second.predictor.revises = true;
+  second.pipeline =
+      std::make_unique<Pipeline>(second.options, second.source.table(), second.predictor.table(),
+                                 second.config, second.listeners, &second.stop);
+  unisim::mapfile::MapFile map(path);
+  second.pipeline->load(&map);
+  REQUIRE(second.pipeline->run().outcome == Outcome::kFinished);
+  for (int32_t id = 0; id < submaps; ++id) CHECK(revised.submaps.count(id) == 1);
 }
