@@ -71,27 +71,32 @@ function(unisim_install_pkgconfig name component)
     COMPONENT ${component})
 endfunction()
 
-# unisim_vectorised_sources(TARGET FILES...): compiles sources of TARGET once more for the wider vectors
-# of x86-64, in the namespace `avx2` (core/base/isa.hpp). Which copy runs is decided at run time. Not with
-# UNISIM_ISA for one instruction set.
-function(unisim_vectorised_sources target)
+# unisim_vectorised_sources(TARGET ISAS FILES...): compiles sources of TARGET once more for each of ISAS, wider vectors of
+# x86-64 (`avx2`, `avx512`), in a namespace of that name (core/base/isa.hpp). Which copy runs is decided at run time. Not
+# with UNISIM_ISA for one instruction set.
+function(unisim_vectorised_sources target isas)
   if(NOT UNISIM_ISA STREQUAL "dispatch")
     return()
   endif()
+  set(flags_avx2 -mavx2)
+  # What is not written for wide vectors is left with 256 bits.
+  set(flags_avx512 -mavx2 -mavx512f -mavx512vl -mavx512dq -mprefer-vector-width=256)
   include(CheckCXXCompilerFlag)
-  check_cxx_compiler_flag(-mavx2 UNISIM_COMPILER_HAS_AVX2)
-  if(NOT UNISIM_COMPILER_HAS_AVX2)
+  check_cxx_compiler_flag("${flags_avx512}" UNISIM_COMPILER_HAS_WIDE_VECTORS)
+  if(NOT UNISIM_COMPILER_HAS_WIDE_VECTORS)
     return()
   endif()
-  foreach(source IN LISTS ARGN)
-    file(RELATIVE_PATH path ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/${source})
-    set(copy ${CMAKE_CURRENT_BINARY_DIR}/avx2/${source})
-    file(CONFIGURE OUTPUT ${copy} CONTENT "#include \"${path}\"\n")
-    set_source_files_properties(${copy} PROPERTIES
-      COMPILE_OPTIONS -mavx2 COMPILE_DEFINITIONS UNISIM_ISA=avx2)
-    target_sources(${target} PRIVATE ${copy})
+  foreach(isa IN LISTS isas)
+    foreach(source IN LISTS ARGN)
+      file(RELATIVE_PATH path ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+      set(copy ${CMAKE_CURRENT_BINARY_DIR}/${isa}/${source})
+      file(CONFIGURE OUTPUT ${copy} CONTENT "#include \"${path}\"\n")
+      set_source_files_properties(${copy} PROPERTIES
+        COMPILE_OPTIONS "${flags_${isa}}" COMPILE_DEFINITIONS UNISIM_ISA=${isa})
+      target_sources(${target} PRIVATE ${copy})
+    endforeach()
   endforeach()
-  target_compile_definitions(${target} PUBLIC UNISIM_HAS_AVX2)
+  target_compile_definitions(${target} PUBLIC UNISIM_HAS_WIDE_VECTORS)
 endfunction()
 
 # unisim_alone(SOURCES...): compiled one by one where all else is compiled several at once (CMAKE_UNITY_BUILD): their names

@@ -21,20 +21,28 @@
 
 // UNISIM_EACH_ISA(declarations): declares the functions of a vectorised source, every copy of them.
 // UNISIM_DISPATCH(call): calls one of these functions, the copy for this processor.
-#ifdef UNISIM_HAS_AVX2
+// UNISIM_EACH_WIDE_ISA, UNISIM_DISPATCH_WIDE: the same where one more copy is for AVX-512.
+#define UNISIM_EACH_ISA(...) UNISIM_IN_BASELINE(__VA_ARGS__) UNISIM_IN_AVX2(__VA_ARGS__)
+#define UNISIM_EACH_WIDE_ISA(...) UNISIM_EACH_ISA(__VA_ARGS__) UNISIM_IN_AVX512(__VA_ARGS__)
+#define UNISIM_IN_BASELINE(...) \
+  namespace baseline {          \
+  __VA_ARGS__                   \
+  }
+#ifdef UNISIM_HAS_WIDE_VECTORS
 #include "core/base/cpu.hpp"
-#define UNISIM_EACH_ISA(...) \
-  namespace baseline {       \
-  __VA_ARGS__                \
-  }                          \
-  namespace avx2 {           \
-  __VA_ARGS__                \
+#define UNISIM_IN_AVX2(...) \
+  namespace avx2 {          \
+  __VA_ARGS__               \
+  }
+#define UNISIM_IN_AVX512(...) \
+  namespace avx512 {          \
+  __VA_ARGS__                 \
   }
 #define UNISIM_DISPATCH(call) (cpu_has_avx2() ? avx2::call : baseline::call)
+#define UNISIM_DISPATCH_WIDE(call) (cpu_has_avx512() ? avx512::call : UNISIM_DISPATCH(call))
 #else
-#define UNISIM_EACH_ISA(...) \
-  namespace baseline {       \
-  __VA_ARGS__                \
-  }
+#define UNISIM_IN_AVX2(...)
+#define UNISIM_IN_AVX512(...)
 #define UNISIM_DISPATCH(call) (baseline::call)
+#define UNISIM_DISPATCH_WIDE(call) UNISIM_DISPATCH(call)
 #endif

@@ -240,7 +240,7 @@ TEST_CASE("a residual that is no number makes a cost that is none") {
   CHECK(!std::isfinite(collect(QuadShape::kOneMeasurement, false, &edges)));
 }
 
-#ifdef UNISIM_HAS_AVX2
+#ifdef UNISIM_HAS_WIDE_VECTORS
 TEST_CASE("both instruction sets give the same bits") {
   if (!cpu_has_avx2()) {
     WARN("skipped: the processor has no AVX2");

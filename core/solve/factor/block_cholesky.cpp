@@ -279,7 +279,7 @@ Status BlockCholesky::factorize(double lambda, Span<BlockVector> x) {
   task.blocks = blocks_.data();
   task.H_diagonal = H_diagonal_.data();
   task.x = x.data();
-  bad_column_ = UNISIM_DISPATCH(factorize_supernodes(task));
+  bad_column_ = UNISIM_DISPATCH_WIDE(factorize_supernodes(task));
   if (bad_column_ >= 0) {
     mark_all_stale();
     return Status::kNumerical;
@@ -292,7 +292,7 @@ Status BlockCholesky::factorize(double lambda, Span<BlockVector> x) {
 }
 
 void BlockCholesky::backward(Span<BlockVector> x) const {
-  UNISIM_DISPATCH(backward_supernodes(supernodes(), blocks_.data(), 0, supernodes_, x.data()));
+  UNISIM_DISPATCH_WIDE(backward_supernodes(supernodes(), blocks_.data(), 0, supernodes_, x.data()));
 }
 
 void BlockCholesky::backward(Span<BlockVector> x, double least) {
@@ -302,7 +302,7 @@ void BlockCholesky::backward(Span<BlockVector> x, double least) {
     for (int32_t r = row_start_[s]; !reached && r < row_start_[s + 1]; ++r) {
       reached = moves_[rows_[r]] != 0;
     }
-    if (reached) UNISIM_DISPATCH(backward_supernodes(S, blocks_.data(), s, s + 1, x.data()));
+    if (reached) UNISIM_DISPATCH_WIDE(backward_supernodes(S, blocks_.data(), s, s + 1, x.data()));
     for (int32_t j = first_column_[s]; j < first_column_[s + 1]; ++j) {
       if (!reached) x[j] = BlockVector{};
       double largest = 0.0;
@@ -313,7 +313,7 @@ void BlockCholesky::backward(Span<BlockVector> x, double least) {
 }
 
 void BlockCholesky::solve(Span<BlockVector> x) const {
-  UNISIM_DISPATCH(forward_supernodes(supernodes(), blocks_.data(), 0, supernodes_, x.data()));
+  UNISIM_DISPATCH_WIDE(forward_supernodes(supernodes(), blocks_.data(), 0, supernodes_, x.data()));
   backward(x);
 }
 
@@ -331,7 +331,7 @@ void BlockCholesky::inverse_block(int32_t column, Span<BlockVector> work, Mat7* 
     top = s;
   }
   for (int32_t s = top; s != -1; s = child[s]) {
-    UNISIM_DISPATCH(invert_supernode(task, s));
+    UNISIM_DISPATCH_WIDE(invert_supernode(task, s));
     stale_[s] = Staleness::kFactor;
   }
   *out = as_matrix(blocks_[diagonal_[column]]);

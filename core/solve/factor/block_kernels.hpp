@@ -8,17 +8,26 @@
 namespace unisim {
 namespace UNISIM_ISA {
 
-inline constexpr int kLane = kPackLanes;  // doubles in a lane
+// Rows of a column go into lanes: with AVX-512 all of them into one.
+#if defined(__AVX512F__)
+inline constexpr int kLane = 8;  // doubles in a lane
+#else
+inline constexpr int kLane = kPackLanes;
+#endif
 inline constexpr int kLanes = kBlockRows / kLane;
 
 // Keeps what the loops index in registers.
 #define UNISIM_UNROLL _Pragma("GCC unroll 8")
 
-using Lane = Pack;
+using Lane = double __attribute__((vector_size(kLane * sizeof(double))));
 
 UNISIM_ALWAYS_INLINE Lane* lanes(double* column) { return reinterpret_cast<Lane*>(column); }
 UNISIM_ALWAYS_INLINE const Lane* lanes(const double* column) {
   return reinterpret_cast<const Lane*>(column);
+}
+
+UNISIM_ALWAYS_INLINE const Pack* packs(const double* column) {
+  return reinterpret_cast<const Pack*>(column);
 }
 
 /// kColumns columns of C -= sum_k A[k] B[k]' from column kFirst on, over `count` blocks; kLower
@@ -46,7 +55,9 @@ UNISIM_ALWAYS_INLINE void subtract_products_columns(Block& C, const Block* A, co
 
 /// C -= sum_k A[k] B[k]' over `count` blocks each.
 UNISIM_ALWAYS_INLINE void subtract_products(Block& C, const Block* A, const Block* B, int count) {
-  if constexpr (kLane >= 4) {
+  if constexpr (kLane == 8) {
+    subtract_products_columns<0, kTangentDim, false>(C, A, B, count);
+  } else if constexpr (kLane == 4) {
     subtract_products_columns<0, 4, false>(C, A, B, count);
     subtract_products_columns<4, 3, false>(C, A, B, count);
   } else {
@@ -59,8 +70,12 @@ UNISIM_ALWAYS_INLINE void subtract_products(Block& C, const Block* A, const Bloc
 /// Lower triangle of C -= sum_k A[k] A[k]'; above the diagonal C is left with numbers of no
 /// meaning.
 UNISIM_ALWAYS_INLINE void subtract_grams(Block& C, const Block* A, int count) {
-  subtract_products_columns<0, 4, true>(C, A, A, count);
-  subtract_products_columns<4, 3, true>(C, A, A, count);
+  if constexpr (kLane == 8) {
+    subtract_products_columns<0, kTangentDim, true>(C, A, A, count);
+  } else {
+    subtract_products_columns<0, 4, true>(C, A, A, count);
+    subtract_products_columns<4, 3, true>(C, A, A, count);
+  }
 }
 
 alignas(64) inline constexpr double kUnitRows[kTangentDim][kBlockRows] = {
@@ -145,18 +160,19 @@ UNISIM_ALWAYS_INLINE void subtract_times(BlockVector& y, const Block* A, const B
 /// Products A' x of several blocks, summed by column in four parts that are added up at the end, in
 /// one order whatever the width of the vectors.
 struct TransposedSum {
-  static constexpr int kParts = 4 / kLane;
-  Lane part[kTangentDim][kParts];
+  static constexpr int kParts = 4 / kPackLanes;
+  static constexpr int kPacks = kBlockRows / kPackLanes;
+  Pack part[kTangentDim][kParts];
 
   UNISIM_ALWAYS_INLINE void clear() {
     for (int k = 0; k < kTangentDim; ++k) {
-      for (int p = 0; p < kParts; ++p) part[k][p] = Lane{};
+      for (int p = 0; p < kParts; ++p) part[k][p] = Pack{};
     }
   }
   UNISIM_ALWAYS_INLINE void add(const Block& A, const BlockVector& x) {
     for (int k = 0; k < kTangentDim; ++k) {
-      const Lane* a = lanes(A.v + kBlockRows * k);
-      for (int l = 0; l < kLanes; ++l) part[k][l % kParts] += a[l] * lanes(x.v)[l];
+      const double* a = A.v + kBlockRows * k;
+      for (int p = 0; p < kPacks; ++p) part[k][p % kParts] += packs(a)[p] * packs(x.v)[p];
     }
   }
   UNISIM_ALWAYS_INLINE void subtract_from(BlockVector& y) const {

@@ -22,6 +22,6 @@ struct InverseTask {
 
 // invert_supernode(): turns the blocks of supernode s into those of S. All above it have been
 // turned.
-UNISIM_EACH_ISA(void invert_supernode(const InverseTask& task, int32_t s);)
+UNISIM_EACH_WIDE_ISA(void invert_supernode(const InverseTask& task, int32_t s);)
 
 }  // namespace unisim

@@ -24,10 +24,10 @@ struct FactorTask {
 // @return -1; else the column whose pivot is not finite or not above 1e-13 of its diagonal
 // forward_supernodes(): x := L^-1 x for the supernodes begin .. end - 1.
 // backward_supernodes(): x := L'^-1 x for them.
-UNISIM_EACH_ISA(int32_t factorize_supernodes(const FactorTask& task);
-                void forward_supernodes(const Supernodes& S, const Block* L, int32_t begin,
-                                        int32_t end, BlockVector* x);
-                void backward_supernodes(const Supernodes& S, const Block* L, int32_t begin,
-                                         int32_t end, BlockVector* x);)
+UNISIM_EACH_WIDE_ISA(int32_t factorize_supernodes(const FactorTask& task);
+                     void forward_supernodes(const Supernodes& S, const Block* L, int32_t begin,
+                                             int32_t end, BlockVector* x);
+                     void backward_supernodes(const Supernodes& S, const Block* L, int32_t begin,
+                                              int32_t end, BlockVector* x);)
 
 }  // namespace unisim
