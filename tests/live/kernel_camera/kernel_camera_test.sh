@@ -9,7 +9,11 @@ if [ $# -ne 5 ]; then
   echo "usage: kernel_camera_test.sh FOLDER_OF_PROGRAMS CONSUMER PLAYER KERNEL_FOLDER SCRATCH_FOLDER" >&2
   exit 2
 fi
-readonly bin=$1 consumer=$2 player=$3 kernel=$4 scratch=$5
+# Names as they are from any folder, for the machine.
+bin=$(realpath "$1")
+consumer=$(realpath "$2")
+player=$(realpath "$3")
+readonly bin consumer player kernel=$4 scratch=$5
 here=$(realpath "$(dirname "${BASH_SOURCE[0]}")")
 readonly here
 # shellcheck source-path=SCRIPTDIR source=../../support/emulated_machine.sh
