@@ -35,7 +35,8 @@ struct TwoViewInput {
   Sim3 T_i_j;  ///< scale 1
   DepthMap depth_i;
   DepthMap depth_j;
-  double center_sigma = 0.0;  ///< >= 0, 0: not known
+  double center_sigma = 0.0;     ///< >= 0, 0: not known
+  double log_scale_sigma = 0.0;  ///< >= 0: of the scale carried over from i
 };
 
 /// Checked multi-view prediction; the arrays are the caller's.
@@ -52,6 +53,7 @@ struct SubmapUpdate {
   Span<const Sim3> T_submap_kf;
   Span<const double> log_depth_ratio;
   double center_sigma = 0.0;
+  bool scale_settled = false;  ///< the guesses of TwoViewInput::log_scale_sigma are measured now
 };
 
 /// What says how long a metre is; numbers of UNISIM_METRIC_*.
@@ -229,10 +231,15 @@ class Session {
   void make_keyframe_room();
   void make_node_room();
   void refuse_late_windows();
-  double quality_multiplier(double center_sigma) const;
+  double quality_multiplier(double sigma) const;
   bool has_ids() const {
     return map_.keyframes.size() <= kLastId && map_.submaps.next_id() <= kLastId;
   }
+
+  // session/scale_doubt.cpp
+  double window_multiplier(const Submap& submap) const;
+  void weigh_views(const Submap& submap);
+  void settle_scale(const KeyframeRange& between);
 
   // session/submaps.cpp
   Status check_views(const SubmapInput& input, bool is_loop, int32_t* window) const;

@@ -61,7 +61,10 @@ extern "C" {
  *  keyframes too far apart. */
 #define UNISIM_REASON_LOST_TRACKS 12
 #define UNISIM_REASON_NOT_RIGID 13 /**< does not move as a rigid scene before one camera */
-#define UNISIM_REASON_COUNT 14     /**< one more than the last */
+/** Turned on the spot until nothing that was measured is in view: the scale is a guess. What a pair
+ *  with a large log_scale_sigma comes from; a predictor does not give it. */
+#define UNISIM_REASON_SPOT_TURN 14
+#define UNISIM_REASON_COUNT 15 /**< one more than the last */
 
 /** What a frame says about the camera's motion. */
 typedef struct unisim_motion {
@@ -79,11 +82,12 @@ typedef struct unisim_pair_prediction {
   unisim_sim3 T_i_j; /**< scale 1 */
   unisim_depth_map depth_i;
   unisim_depth_map depth_j;
-  double focal_px;     /**< of the image, 0 if not known */
-  double center_sigma; /**< see unisim_two_view; 0 if not known */
-  int32_t gap;         /**< T_i_j and depth_i are those of keyframe i - gap: the last one with a
-                            pose, the track was lost and found again at j; 0: of i */
-  int32_t reserved;    /**< 0 */
+  double focal_px;        /**< of the image, 0 if not known */
+  double center_sigma;    /**< see unisim_two_view; 0 if not known */
+  int32_t gap;            /**< T_i_j and depth_i are those of keyframe i - gap: the last one with a
+                               pose, the track was lost and found again at j; 0: of i */
+  int32_t reserved;       /**< 0 */
+  double log_scale_sigma; /**< see unisim_two_view; 0: the depth maps show the scale */
 } unisim_pair_prediction;
 
 /** Multi-view prediction of a window. */
@@ -109,6 +113,8 @@ typedef struct unisim_window_revision {
   const unisim_sim3* T_window_kf; /**< count */
   const double* log_depth_ratio;  /**< count; see unisim_submap_update */
   double center_sigma;
+  int32_t scale_settled; /**< see unisim_submap_update */
+  int32_t reserved;      /**< 0 */
 } unisim_window_revision;
 
 /** Pose of the frame observed last, relative to the newest keyframe. */

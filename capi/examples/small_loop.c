@@ -36,7 +36,12 @@ int main(void) {
     unisim_request want = {.struct_size = sizeof want};
     if (unisim_next_request(session, UNISIM_REQUEST_PAIR, &want) != UNISIM_OK) continue;
     const int i = want.keyframe_ids[0], j = want.keyframe_ids[1];
-    const unisim_two_view pair = {sizeof pair, i, j, 0, step_after(i), map, map, 0.0};
+    const unisim_two_view pair = {.struct_size = sizeof pair,
+                                  .i = i,
+                                  .j = j,
+                                  .T_i_j = step_after(i),
+                                  .depth_i = map,
+                                  .depth_j = map};
     CHECK(unisim_add_two_view(session, &pair));
     unisim_pose live = {.struct_size = sizeof live};
     CHECK(unisim_get_pose(session, j, &live));

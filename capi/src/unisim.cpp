@@ -140,9 +140,11 @@ unisim_status unisim_add_two_view(unisim_session* session, const unisim_two_view
   input.i = t.i;
   input.j = t.j;
   input.center_sigma = t.center_sigma;
-  const bool good =
-      unisim::read_pose(t.T_i_j, &input.T_i_j) && unisim::read_depth(t.depth_i, &input.depth_i) &&
-      unisim::read_depth(t.depth_j, &input.depth_j) && unisim::is_sigma(t.center_sigma);
+  input.log_scale_sigma = t.log_scale_sigma;
+  const bool good = unisim::read_pose(t.T_i_j, &input.T_i_j) &&
+                    unisim::read_depth(t.depth_i, &input.depth_i) &&
+                    unisim::read_depth(t.depth_j, &input.depth_j) &&
+                    unisim::is_sigma(t.center_sigma) && unisim::is_sigma(t.log_scale_sigma);
   if (!good || t.i == std::numeric_limits<int32_t>::max()) return UNISIM_ERR_INVALID_ARGUMENT;
   return to_c(core(session)->add_two_view(input));
 }
@@ -172,8 +174,11 @@ unisim_status unisim_update_submap(unisim_session* session, const unisim_submap_
   for (int32_t k = 0; k < u.count; ++k) {
     if (!(std::abs(u.log_depth_ratio[k]) <= kLargestLogRatio)) return UNISIM_ERR_INVALID_ARGUMENT;
   }
-  return to_c(core(session)->update_submap(
-      {u.submap_id, {poses, u.count}, {u.log_depth_ratio, u.count}, u.center_sigma}));
+  return to_c(core(session)->update_submap({u.submap_id,
+                                            {poses, u.count},
+                                            {u.log_depth_ratio, u.count},
+                                            u.center_sigma,
+                                            u.scale_settled == 1}));
 }
 
 unisim_status unisim_next_request(unisim_session* session, uint32_t kinds,

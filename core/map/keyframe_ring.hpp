@@ -23,10 +23,13 @@ struct Keyframe {
   int32_t held_from = -1;            ///< without a pose: keyframe whose pose stands in, -1: none
   int32_t segment = -1;              ///< -1 until it has a pose
   Tracking state = Tracking::kInit;  ///< after the pair that ends here was settled
-  int32_t best_submap = -1;          ///< covering submap whose centre is nearest in views
-  int32_t best_distance = 0;         ///< that distance
-  int32_t window_count = 0;          ///< submaps of windows that cover it
-  int32_t loop_count = 0;            ///< loop submaps that cover it
+  /// Of the scale that the pair ending here carried over. Not saved: windows of a later run lie
+  /// over other pairs.
+  double log_scale_sigma = 0.0;
+  int32_t best_submap = -1;   ///< covering submap whose centre is nearest in views
+  int32_t best_distance = 0;  ///< that distance
+  int32_t window_count = 0;   ///< submaps of windows that cover it
+  int32_t loop_count = 0;     ///< loop submaps that cover it
 
   bool retired() const { return owner >= 0; }
   bool posed() const { return node >= 0 || retired(); }

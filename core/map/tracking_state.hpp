@@ -12,7 +12,7 @@ namespace unisim {
 enum class Tracking : int32_t {
   kInit = 0,         ///< no pair has been accepted yet
   kTracking = 1,     ///< the last pair was accepted
-  kDegraded = 2,     ///< the last pair was refused, the pose is held
+  kDegraded = 2,     ///< the last pair was refused and the pose is held, or its scale is a guess
   kLost = 3,         ///< `lost_after` pairs in a row were refused
   kRelocalised = 4,  ///< found again after a loss, or a loop has just joined two segments
 };
@@ -22,9 +22,10 @@ class TrackingState {
  public:
   explicit TrackingState(int32_t lost_after) : lost_after_(lost_after) {}
 
-  void pair_accepted() {
+  /// @param doubtful its scale is hardly known
+  void pair_accepted(bool doubtful) {
     refused_in_a_row_ = 0;
-    state_ = Tracking::kTracking;
+    state_ = doubtful ? Tracking::kDegraded : Tracking::kTracking;
   }
   /// Before the first accepted pair there is nothing to lose: the state stays kInit.
   void pair_refused() {

@@ -14,12 +14,14 @@ namespace {
 constexpr double kUnknownRatioMultiplier = 0.01;
 // Keeps the system well conditioned however bad a predictor calls itself.
 constexpr double kLeastMultiplier = 1e-4;
+// From here on nobody should act on lengths without knowing.
+constexpr double kDoubtfulScale = 0.1;
 
 }  // namespace
 
-double Session::quality_multiplier(double center_sigma) const {
-  if (center_sigma <= map_.config.sigma_reference) return 1.0;
-  const double ratio = map_.config.sigma_reference / center_sigma;
+double Session::quality_multiplier(double sigma) const {
+  if (sigma <= map_.config.sigma_reference) return 1.0;
+  const double ratio = map_.config.sigma_reference / sigma;
   return std::max(ratio * ratio, kLeastMultiplier);
 }
 
@@ -53,7 +55,7 @@ Status Session::add_two_view(const TwoViewInput& input) {
 
   depth_.sample(input.depth_i, &sampled_);
   double log_ratio = 0.0;
-  double multiplier = quality_multiplier(input.center_sigma);
+  double multiplier = quality_multiplier(std::max(input.center_sigma, input.log_scale_sigma));
   if (map_.keyframes[input.i].node >= 0) {
     LogMedianRatio ratio = {};
     if (depth_.over_two_view(sampled_, input.i, &ratio)) {
@@ -125,7 +127,8 @@ void Session::accept_pair(const TwoViewInput& input, double log_ratio, double mu
         i.node, map_.keyframes[input.j].node, Z_i_j,
         map_.config.edge_weight(FactorKind::kTwoView, multiplier, EdgeOrigin::kPair), &edge));
   }
-  tracking_.pair_accepted();
+  map_.keyframes[input.j].log_scale_sigma = input.log_scale_sigma;
+  tracking_.pair_accepted(input.log_scale_sigma > kDoubtfulScale);
   if (i.state == Tracking::kInit) map_.keyframes[input.i].state = tracking_.state();
   map_.keyframes[input.j].state = tracking_.state();
   map_.keyframes.settle(input.j);

@@ -25,8 +25,9 @@ Status Session::update_submap(const SubmapUpdate& update) {
   }
   if (update.center_sigma > 0.0) {
     submap.quality.center_sigma = update.center_sigma;
-    submap.quality.multiplier = quality_multiplier(update.center_sigma);
+    submap.quality.multiplier = window_multiplier(submap);
   }
+  if (update.scale_settled && !submap.is_loop) settle_scale(submap.window);
   if (submap.is_loop) watch_.note_news();
   update_views(update, &submap);
   ties_.rescale(update.submap, update.log_depth_ratio);
@@ -59,16 +60,13 @@ void Session::update_views(const SubmapUpdate& update, Submap* submap) {
     view.T_submap_kf = between(T_origin, update.T_submap_kf[k]);
     view.log_rho += update.log_depth_ratio[k];
     depth_.rescale_submap(update.submap, k, math::exp(update.log_depth_ratio[k]));
-    if (view.bridge >= 0) {
-      set_bridge_measurement(view);
-      holds(map_.graph.set_multiplier(view.bridge, submap->quality.multiplier));
-    }
+    if (view.bridge >= 0) set_bridge_measurement(view);
     if (view.anchor >= 0) {
       const double log_ratio = map_.graph.edge(view.anchor).log_ratio + update.log_depth_ratio[k];
       holds(map_.graph.set_log_ratio(view.anchor, log_ratio));
-      holds(map_.graph.set_multiplier(view.anchor, submap->quality.multiplier));
     }
   }
+  weigh_views(*submap);
   // The unit may be another one: the submap's scale follows, so that its origin keyframe stays.
   const double unit = math::exp(-update.log_depth_ratio[submap->origin]);
   map_.metric.rescale(submap->place.node, -update.log_depth_ratio[submap->origin]);

@@ -53,6 +53,7 @@ Status Session::add_submap(const SubmapInput& input, bool is_loop, int32_t* id) 
   place_submap(&submap);
   connect(input, made, window);
   if (is_loop) {
+    settle_scale({input.keyframes[0], input.keyframes[input.keyframes.size() - 1]});
     skeleton_.add_loop(made);
     watch_.note_news();
   } else {
@@ -155,7 +156,7 @@ bool Session::judge_submap(Submap* submap) {
   const double sigma_gate = submap->is_loop ? map_.config.sigma_gate_loop : map_.config.sigma_gate;
   const double value = known ? submap->quality.center_sigma : submap->quality.scatter;
   const double gate = known ? sigma_gate : map_.config.scatter_gate;
-  submap->quality.multiplier = quality_multiplier(submap->quality.center_sigma);
+  submap->quality.multiplier = window_multiplier(*submap);
   if (value > gate) {
     refuse_submap(*submap, known ? RefusalReason::kSigma : RefusalReason::kScatter, value, gate);
     return false;

@@ -63,7 +63,10 @@ Step MapBuilder::reject(const unisim_request& request, MessageKind kind, const s
   parts_.messages->say(kind, request_name(request) + ": " + why);
   const unisim_status status = parts_.session->reject(request);
   if (status != UNISIM_OK) return session_failed("unisim_reject_request", status);
-  if (request.kind == UNISIM_REQUEST_PAIR) last_settled_ = request.keyframe_ids[1];
+  if (request.kind == UNISIM_REQUEST_PAIR) {
+    last_settled_ = request.keyframe_ids[1];
+    scale_guessed_ = false;
+  }
   return Step::kOk;
 }
 
@@ -109,6 +112,7 @@ Step MapBuilder::serve_pair(const unisim_request& request, bool* pending) {
   if (status != UNISIM_OK) return session_failed("unisim_add_two_view", status);
   if (prediction.gap > 0) wide_windows_.note_gap();
   last_settled_ = j;
+  scale_guessed_ = prediction.log_scale_sigma > 0;
   return Step::kOk;
 }
 

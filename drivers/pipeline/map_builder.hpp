@@ -92,6 +92,8 @@ class MapBuilder {
 
   /// Last keyframe whose pair was added or rejected; 0 before the first.
   int32_t last_settled() const { return last_settled_; }
+  /// Is the scale of the pair settled last a guess?
+  bool scale_guessed() const { return scale_guessed_; }
 
   /// How long the units are, as the last optimisation left them.
   MetreBook& metres() { return metres_; }
@@ -155,6 +157,7 @@ class MapBuilder {
   std::unique_ptr<LoopCloser> loops_;  // NULL: none are looked for
   int32_t places_told_ = 0;            // looks, from the first of the run on
   int32_t last_settled_ = 0;
+  bool scale_guessed_ = false;
   int32_t newest_ = -1;  // keyframe
   std::unique_ptr<BackLane> lane_;
   unisim_request asked_{};  // of the turn in work; count 0: no window

@@ -355,7 +355,7 @@ void Pipeline::Impl::tell_progress() {
     if (!localiser_) result_.progress.state = info.state;
     result_.progress.submaps = info.submaps;
     result_.progress.loops = info.loops;
-    result_.progress.reason = reason_.of_state(result_.progress.state);
+    result_.progress.reason = reason_.of_state(result_.progress.state, builder_->scale_guessed());
   }
   for (Listener* listener : listeners_) listener->on_progress(result_.progress);
 }

@@ -75,6 +75,7 @@ unisim_status SessionClient::add_two_view(int32_t i, int32_t j,
   two_view.depth_i = pair.depth_i;
   two_view.depth_j = pair.depth_j;
   two_view.center_sigma = pair.center_sigma;
+  two_view.log_scale_sigma = pair.log_scale_sigma;
   return timed(&StageTimes::depth_ratio, [&] { return unisim_add_two_view(session_, &two_view); });
 }
 
@@ -118,6 +119,7 @@ unisim_status SessionClient::update_submap(int32_t submap_id,
   update.T_submap_kf = revision.T_window_kf;
   update.log_depth_ratio = revision.log_depth_ratio;
   update.center_sigma = revision.center_sigma;
+  update.scale_settled = revision.scale_settled;
   return timed(&StageTimes::graph, [&] { return unisim_update_submap(session_, &update); });
 }
 

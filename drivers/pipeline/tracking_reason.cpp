@@ -21,7 +21,8 @@ const char* reason_name(int32_t reason) {
       "no start yet: only turned",
       "no start yet: too little parallax",
       "no start yet: features lost",
-      "no start yet: no rigid scene"};
+      "no start yet: no rigid scene",
+      "turned on the spot"};
   if (reason < 0 || reason >= UNISIM_REASON_COUNT) return "";
   return kNames[static_cast<size_t>(reason)];
 }
@@ -46,7 +47,8 @@ void TrackingReason::see_frame(int32_t reason) {
   age_ = 0;
 }
 
-int32_t TrackingReason::of_state(int32_t state) {
+int32_t TrackingReason::of_state(int32_t state, bool scale_guessed) {
+  if (state == UNISIM_STATE_DEGRADED && scale_guessed) return UNISIM_REASON_SPOT_TURN;
   if (state == UNISIM_STATE_DEGRADED || state == UNISIM_STATE_LOST)
     return cause_ != UNISIM_REASON_NONE ? cause_ : UNISIM_REASON_PREDICTION;
   if (age_ > kMemory) cause_ = UNISIM_REASON_NONE;

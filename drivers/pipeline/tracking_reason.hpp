@@ -24,7 +24,8 @@ class TrackingReason {
   /// UNISIM_REASON_* now. While tracking goes well that of the newest frame. Without a track the
   /// newest there was around its loss, else UNISIM_REASON_PREDICTION; before the start
   /// UNISIM_REASON_START.
-  int32_t of_state(int32_t state);
+  /// @param scale_guessed of the newest pair, which was taken: see UNISIM_REASON_SPOT_TURN
+  int32_t of_state(int32_t state, bool scale_guessed = false);
 
   /// Frames with each reason.
   const std::array<int64_t, UNISIM_REASON_COUNT>& frames() const { return frames_; }

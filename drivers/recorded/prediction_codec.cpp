@@ -123,7 +123,9 @@ void encode_pair(const unisim_pair_prediction& pair, RecordBytes* out) {
   out->put(PairData{pair.focal_px, pair.center_sigma, pair.T_i_j});
   encode_depth(pair.depth_i, out);
   encode_depth(pair.depth_j, out);
-  if (pair.gap != 0) out->put(PairGap{pair.gap, 0});
+  const bool doubtful = pair.log_scale_sigma > 0.0;
+  if (pair.gap != 0 || doubtful) out->put(PairGap{pair.gap, 0});
+  if (doubtful) out->put(PairDoubt{pair.log_scale_sigma});
 }
 
 void encode_window(const unisim_window_prediction& window, RecordBytes* out) {
@@ -140,7 +142,7 @@ void encode_window(const unisim_window_prediction& window, RecordBytes* out) {
 
 void encode_revision(const unisim_window_revision& revision, RecordBytes* out) {
   const auto count = static_cast<std::size_t>(revision.count);
-  out->put(RevisionData{revision.center_sigma, revision.count, 0});
+  out->put(RevisionData{revision.center_sigma, revision.count, revision.scale_settled});
   out->put_array(revision.T_window_kf, count);
   out->put_array(revision.log_depth_ratio, count);
 }
@@ -152,18 +154,21 @@ Decoded decode_pair(std::size_t size, DecodedArrays* arrays, unisim_pair_predict
   if (pair == nullptr) return fail(Decoded::kMalformed, "pair too short", problem);
   const Decoded depths = decode_depths(&cursor, 2, arrays, problem);
   if (depths != Decoded::kOk) return depths;
-  const double numbers[] = {pair->focal_px, pair->center_sigma};
-  if (!finite(numbers, 2) || !finite(pair->T_i_j)) {
+  const PairGap* gap = cursor.take<PairGap>(1);
+  const PairDoubt* doubt = gap != nullptr ? cursor.take<PairDoubt>(1) : nullptr;
+  const double numbers[] = {pair->focal_px, pair->center_sigma,
+                            doubt != nullptr ? doubt->log_scale_sigma : 0.0};
+  if (!finite(numbers, 3) || !finite(pair->T_i_j)) {
     return fail(Decoded::kNotFinite, "pose, focal length or sigma is not a number", problem);
   }
-  const PairGap* gap = cursor.take<PairGap>(1);
   *out = {pair->T_i_j,
           arrays->depth[0],
           arrays->depth[1],
           pair->focal_px,
           pair->center_sigma,
           gap != nullptr ? gap->gap : 0,
-          0};
+          0,
+          numbers[2]};
   return Decoded::kOk;
 }
 
@@ -214,6 +219,7 @@ Decoded decode_revision(std::size_t size, DecodedArrays* arrays, unisim_window_r
   out->T_window_kf = poses;
   out->log_depth_ratio = ratios;
   out->center_sigma = revision->center_sigma;
+  out->scale_settled = revision->scale_settled;
   return Decoded::kOk;
 }
 

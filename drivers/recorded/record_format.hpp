@@ -146,10 +146,15 @@ struct PairData {
   unisim_sim3 T_i_j;
 };
 
-/// After the depth maps of a pair over a gap; others end there.
+/// After the depth maps of a pair over a gap, or one with PairDoubt; others end there.
 struct PairGap {
   std::int32_t gap;
   std::int32_t reserved;
+};
+
+/// After the gap of a pair whose scale is hardly known; others end there.
+struct PairDoubt {
+  double log_scale_sigma;
 };
 
 /// After the depth maps of a window whose unit is known in metres; others end there.
@@ -172,7 +177,7 @@ struct WindowData {
 struct RevisionData {
   double center_sigma;
   std::int32_t count;
-  std::int32_t reserved;
+  std::int32_t scale_settled;  ///< 0 in files made before there was any
 };
 
 /// Data of a place, before its `dimension` int8 numbers.

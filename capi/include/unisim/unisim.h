@@ -70,8 +70,11 @@ typedef struct unisim_two_view {
   unisim_sim3 T_i_j;        /**< camera j to camera i, scale 1 */
   unisim_depth_map depth_i; /**< same unit as T_i_j */
   unisim_depth_map depth_j; /**< same unit as T_i_j */
-  double center_sigma; /**< predicted standard deviation of the camera centres over median depth;
-                            0: not known, the scatter of the depth ratios stands in */
+  double center_sigma;    /**< predicted standard deviation of the camera centres over median depth;
+                               0: not known, the scatter of the depth ratios stands in */
+  double log_scale_sigma; /**< standard deviation of the logarithm of the scale that is carried over
+                             from i, where depth_i does not show it: a camera that turned on the
+                             spot sees nothing it has measured. 0: as good as the depth ratios */
 } unisim_two_view;
 
 /** Add the two-view prediction of keyframes i and j: sets the live pose of j, and answers the
@@ -81,6 +84,9 @@ typedef struct unisim_two_view {
  *  depth_i is compared with the depth keyframe i had in the pair before: that ratio carries scale
  *  along the chain. With fewer than 16 grid cells in common it is taken as 1 and the edge counts a
  *  hundredth.
+ *
+ *  With log_scale_sigma over 0.1 the pose of j is taken and the state is DEGRADED; the pair, and
+ *  windows over it, weigh accordingly little until a loop or an update of the window settles it.
  *  @param session live session
  *  @param[in] two_view see unisim_two_view
  *  @return UNISIM_OK (refused for its quality too: then unisim_get_info() counts it and says why,
@@ -135,7 +141,8 @@ typedef struct unisim_submap_update {
   uint32_t struct_size;           /**< sizeof this struct, set by the caller */
   int32_t submap_id;              /**< as unisim_add_submap() gave it */
   int32_t count;                  /**< the count it was added with */
-  int32_t reserved;               /**< 0 */
+  int32_t scale_settled;          /**< 1: what unisim_two_view.log_scale_sigma called a guess within
+                                     this window is measured now, and counts fully again */
   const unisim_sim3* T_submap_kf; /**< count poses, scale 1, any gauge */
   const double* log_depth_ratio;  /**< count values: log median(new / old depth) of each view; old:
                                      of the last measurement handed in */

@@ -53,6 +53,7 @@ bool LandmarkGrowth::triangulate_landmark(State* state, int32_t slot, double gat
   mark.position = result.position;
   mark.state = LandmarkState::kPlaced;
   mark.soft = false;
+  mark.measured_at = state->map.end_id() - 1;
   return true;
 }
 
@@ -80,6 +81,7 @@ void LandmarkGrowth::promote(State* state, int32_t slot) {
   if (parallax_angle(views_.data(), static_cast<int>(views_.size())) <= kMinParallaxRad) return;
   triangulate_landmark(state, slot, kTriangulationGate);
   mark.soft = false;
+  mark.measured_at = state->map.end_id() - 1;
 }
 
 void LandmarkGrowth::guess_depth(State* state, int32_t slot, int32_t keyframe,

@@ -69,6 +69,7 @@ struct Landmark {
   int32_t segment = 0;
   uint32_t generation = 0;  ///< counts the uses of the slot
   int32_t observations = 0;
+  int32_t measured_at = 0;  ///< keyframe with which its depth became a measurement
   ObservationRef first;
   ObservationRef last;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< world

@@ -63,6 +63,7 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
   growth_.reserve(tracks, static_cast<size_t>(config.max_keyframes));
   bootstrap_.reserve(tracks);
   zoom_.reserve(tracks);
+  turns_.reserve(static_cast<size_t>(config.max_keyframes));
   atlas_.open(size);
   revive_.reserve(static_cast<size_t>(config.max_landmarks));
   remeasure_.reserve(tracks);
@@ -131,6 +132,7 @@ bool Mapper::add_keyframe(int32_t id) {
   bool adjusted = false;
   if (background_.running() && id >= background_.due_at(state_.config.adjust_latency)) {
     adjusted = background_.merge(&state_, &poses_);
+    turns_.settle(state_);
   }
   if (state_.initialised) {
     track(id);
@@ -208,6 +210,7 @@ void Mapper::take_pose(int32_t id, const FramePose& first) {
   newest.center_sigma = found.center_sigma;
   detect_tracks();
   growth_.run(&state_, id);
+  turns_.see_keyframe(state_, id);
   adjust_window(id);
   note_motion(id);
   revive_.store_patches(state_, front_end_.current(), id, &patches_);
@@ -371,6 +374,7 @@ bool Mapper::finish() {
     background_.start(state_, newest, kFinalIterations, &loops_, joined_ids_);
     changed = background_.merge(&state_, &poses_) || changed;
   }
+  turns_.settle(state_);
   return changed;
 }
 

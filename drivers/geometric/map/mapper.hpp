@@ -13,6 +13,7 @@
 #include "drivers/geometric/map/map_adjustment.hpp"
 #include "drivers/geometric/map/remeasure.hpp"
 #include "drivers/geometric/map/revive.hpp"
+#include "drivers/geometric/map/spot_turns.hpp"
 #include "drivers/geometric/map/state.hpp"
 #include "drivers/geometric/places/locator.hpp"
 #include "drivers/geometric/places/places.hpp"
@@ -57,6 +58,7 @@ class Mapper {
   double spread_sigma() const { return background_.spread_sigma(); }
 
   const State& state() const { return state_; }
+  const SpotTurns& turns() const { return turns_; }
   const MapperCounts& counts() const { return counts_; }
   const Places& places() const { return places_; }
   const StartStatistics& start_statistics() const { return start_; }
@@ -114,6 +116,7 @@ class Mapper {
   std::vector<LoopObservation> loops_;
   std::vector<int32_t> joined_ids_;  // keyframes of the segment that was joined last
   ZoomWatch zoom_;
+  SpotTurns turns_;
   MapAdjustment window_;
   BackgroundAdjustment background_;
   std::vector<int32_t> window_ids_;

@@ -12,6 +12,8 @@ namespace {
 // thing better: it is held loosely.
 constexpr double kPairSigma = 0.003;
 constexpr size_t kLeastWideViews = 3;
+// Of log scale after a turn on the spot: what is new there was guessed at up to 1.7 times too near.
+constexpr double kGuessedScaleSigma = 0.5;
 
 /// Keyframe that stands in for i in the pair (i, j): the last one of j's segment where the track
 /// was lost between and found again at j.
@@ -88,6 +90,7 @@ int Predictions::pair(const Mapper& mapper, int32_t i, int32_t j, unisim_pair_pr
   out->depth_j = fill(state, j, 1, &pair_maps_);
   out->focal_px = state.intrinsics.camera.focal_px;
   out->center_sigma = std::max(kPairSigma, second.center_sigma);
+  out->log_scale_sigma = mapper.turns().guessed(j, j) ? kGuessedScaleSigma : 0;
   return UNISIM_PREDICTION_OK;
 }
 
@@ -159,7 +162,9 @@ int Predictions::wide_window(const Mapper& mapper, int32_t max_views,
   if (!due || spread.empty() || !(mapper.spread_sigma() > 0)) return UNISIM_PREDICTION_PENDING;
   const size_t step = (spread.size() - 1) / static_cast<size_t>(std::max(max_views, 1)) + 1;
   ids_.clear();
-  for (size_t i = 0; i < spread.size(); i += step) ids_.push_back(spread[i]);
+  for (size_t i = 0; i < spread.size(); i += step) {
+    if (spread[i] >= mapper.turns().firm_from()) ids_.push_back(spread[i]);
+  }
   const std::vector<int32_t> wanted = ids_;
   choose_views(mapper.state(), wanted.data(), static_cast<int32_t>(wanted.size()));
   if (ids_.size() < kLeastWideViews) return UNISIM_PREDICTION_PENDING;
@@ -176,6 +181,7 @@ int Predictions::revision(const Mapper& mapper, unisim_window_revision* out) {
   out->T_window_kf = revision_.poses.data();
   out->log_depth_ratio = revision_.log_depth_ratio.data();
   out->center_sigma = revision_.center_sigma;
+  out->scale_settled = mapper.turns().guessed(revision_.first, revision_.last) ? 0 : 1;
   return UNISIM_PREDICTION_OK;
 }
 

@@ -153,6 +153,8 @@ bool WindowCut::next_revision(const State& state, WindowRevision* out) {
     }
     if (!changed(state, window, out->log_depth_ratio)) continue;
     out->token = window.token;
+    out->first = views_[place(window.first_view)].keyframe;
+    out->last = views_[place(window.first_view + static_cast<int64_t>(window.count) - 1)].keyframe;
     out->center_sigma = window.center_sigma;
     out->poses.clear();
     for (size_t i = 0; i < window.count; ++i) {

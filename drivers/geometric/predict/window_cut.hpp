@@ -18,6 +18,8 @@ unisim_sim3 relative_sim3(const CameraPose& i, const CameraPose& j);
 /// A window measured again.
 struct WindowRevision {
   int64_t token = 0;
+  int32_t first = 0;  ///< keyframes
+  int32_t last = 0;
   double center_sigma = 0;
   std::vector<unisim_sim3> poses;
   std::vector<double> log_depth_ratio;

@@ -132,6 +132,7 @@ int Bootstrap::place_landmarks(State* state, int32_t id, double* median_parallax
     Landmark& mark = state->map.landmark(landmarks_[i]);
     mark.position = result.position;
     mark.state = LandmarkState::kPlaced;
+    mark.measured_at = id;
     parallax.push_back(result.parallax_rad);
   }
   *median_parallax = parallax.empty() ? 0 : drivers::median(&parallax);
