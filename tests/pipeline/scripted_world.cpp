@@ -189,6 +189,7 @@ int ScriptedPredictor::two_view(int32_t i, int32_t j, unisim_pair_prediction* ou
   out->T_i_j = relative_pose(true_pose(keyframe_frame(from)), true_pose(keyframe_frame(j)), unit);
   out->depth_i = depth_of(from, unit, &depth_i_);
   out->depth_j = depth_of(j, unit, &depth_j_);
+  if (guessed_pairs.count(i) != 0) out->log_scale_sigma = 0.5;
   if (nan_pairs.count(i) != 0) out->T_i_j.t[1] = std::numeric_limits<double>::quiet_NaN();
   if (empty_pairs.count(i) != 0) out->depth_j.width = 0;
   return UNISIM_PREDICTION_OK;
@@ -267,8 +268,13 @@ int ScriptedPredictor::next_revision(unisim_window_revision* out) {
   revision_.ids = window.ids;
   fill_poses(0.0, 0.0, &revision_);
   log_ratios_.assign(window.ids.size(), 0.0);
-  *out = {window.token, static_cast<int32_t>(window.ids.size()), revision_.poses.data(),
-          log_ratios_.data(), 0.0};
+  *out = {window.token,
+          static_cast<int32_t>(window.ids.size()),
+          revision_.poses.data(),
+          log_ratios_.data(),
+          0.0,
+          0,
+          0};
   return UNISIM_PREDICTION_OK;
 }
 

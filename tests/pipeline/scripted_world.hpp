@@ -67,6 +67,7 @@ class ScriptedPredictor {
   std::set<int32_t> rejected_pairs;  ///< first keyframes
   int32_t found_again = -1;          ///< first keyframe of a pair over a gap ...
   int32_t gap = 0;                   ///< ... that begins so many keyframes before
+  std::set<int32_t> guessed_pairs;   ///< with a scale that is a guess
   std::set<int32_t> nan_pairs;       ///< T_i_j not finite
   std::set<int32_t> empty_pairs;     ///< depth maps of size 0
   std::set<int32_t> rejected_windows;

@@ -58,13 +58,30 @@ TEST_CASE("every reason has a name, and no other number") {
     CHECK(std::string(reason_name(reason)) == "");
 }
 
+namespace {
+
+struct Reasons : unisim::pipeline::Listener {
+  std::map<int64_t, std::pair<int32_t, int32_t>> at;  // frames seen: state, reason
+  void on_progress(const unisim::pipeline::Progress& progress) override {
+    at[progress.frames] = {progress.state, progress.reason};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a guessed scale is told as a turn on the spot, and poses go on") {
+  Run run;
+  Reasons reasons;
+  run.predictor.guessed_pairs = {10, 12};  // keyframes 11 and 13, at frames 55 and 65
+  run.predictor.rejected_pairs = {11};
+  run.listeners.push_back(&reasons);
+  REQUIRE(run.go().outcome == Outcome::kFinished);
+  CHECK(reasons.at[56] == std::make_pair(UNISIM_STATE_DEGRADED, UNISIM_REASON_SPOT_TURN));
+  CHECK(reasons.at[61] == std::make_pair(UNISIM_STATE_DEGRADED, UNISIM_REASON_PREDICTION));
+  CHECK(reasons.at[71] == std::make_pair(UNISIM_STATE_TRACKING, UNISIM_REASON_NONE));
+}
+
 TEST_CASE("a run tells why its track suffers, and changes nothing by it") {
-  struct Reasons : unisim::pipeline::Listener {
-    std::map<int64_t, std::pair<int32_t, int32_t>> at;  // frames seen: state, reason
-    void on_progress(const unisim::pipeline::Progress& progress) override {
-      at[progress.frames] = {progress.state, progress.reason};
-    }
-  };
   Run plain;
   plain.predictor.rejected_pairs = {11};
   plain.go();

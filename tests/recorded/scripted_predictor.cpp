@@ -79,7 +79,14 @@ int two_view(unisim_predictor* predictor, int32_t i, int32_t j, unisim_pair_pred
   }
   fill_maps(scripted, {static_cast<double>(i), static_cast<double>(j)});
   const double focal = 500.0 + scripted.newest / 3.0;
-  *out = {pose_of(j), scripted.maps[0], scripted.maps[1], focal, 0.001 * j, i == 6 ? 2 : 0, 0};
+  *out = {pose_of(j),
+          scripted.maps[0],
+          scripted.maps[1],
+          focal,
+          0.001 * j,
+          i == 6 ? 2 : 0,
+          0,
+          i == 6 || i == 8 ? 0.1 * i : 0.0};
   return UNISIM_PREDICTION_OK;
 }
 
@@ -120,7 +127,7 @@ int next_revision(unisim_predictor* predictor, unisim_window_revision* out) {
     scripted.to_revise.erase(scripted.to_revise.begin() + static_cast<std::ptrdiff_t>(k));
     scripted.poses = {pose_of(2.0 + static_cast<double>(last)), pose_of(3.0)};
     scripted.ratios = {0.125, -1.0 / 3.0};
-    *out = {100 + last, 2, scripted.poses.data(), scripted.ratios.data(), 0.002};
+    *out = {100 + last, 2, scripted.poses.data(), scripted.ratios.data(), 0.002, 1, 0};
     return UNISIM_PREDICTION_OK;
   }
   return UNISIM_PREDICTION_PENDING;

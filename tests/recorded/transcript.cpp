@@ -120,6 +120,7 @@ class Runner {
       line.add(pair.focal_px);
       line.add(pair.center_sigma);
       line.add(static_cast<double>(pair.gap));
+      line.add(pair.log_scale_sigma);
     }
     note(line, status);
     return status != UNISIM_PREDICTION_PENDING;
@@ -169,6 +170,7 @@ class Runner {
     }
     if (status == UNISIM_PREDICTION_OK) {
       line.add(revision.center_sigma);
+      line.add(static_cast<double>(revision.scale_settled));
       line.add(static_cast<double>(revision.token));
     }
     note(line, status, true);

@@ -92,6 +92,16 @@ void Mapper::tell_zoom(int64_t frame) {
              ": poses and depths after it are of another size and bent; film without zoom";
 }
 
+/// Once: the state says so each time.
+void Mapper::tell_turn() {
+  if (turn_told_) return;
+  turn_told_ = true;
+  if (!remark_.empty()) remark_ += "; ";
+  remark_ += "the camera turned on the spot near frame " + std::to_string(frame_) +
+             " until nothing it had measured was in view: how large things are from there on is a "
+             "guess, and the state DEGRADED, until a place from before is seen again";
+}
+
 void Mapper::note_followed() {
   for (int32_t slot = 0; slot < state_.map.landmark_capacity(); ++slot) {
     state_.map.landmark(slot).followed = false;
@@ -211,6 +221,7 @@ void Mapper::take_pose(int32_t id, const FramePose& first) {
   detect_tracks();
   growth_.run(&state_, id);
   turns_.see_keyframe(state_, id);
+  if (turns_.guessed(id, id)) tell_turn();
   adjust_window(id);
   note_motion(id);
   revive_.store_patches(state_, front_end_.current(), id, &patches_);

@@ -78,6 +78,7 @@ class Mapper {
  private:
   void archive_looks(drivers::Archive* io);
   void tell_zoom(int64_t frame);
+  void tell_turn();
   void note_followed();
   /// The landmarks of the tracks are no longer followed.
   void let_go();
@@ -129,6 +130,7 @@ class Mapper {
   Intrinsics lost_intrinsics_;  // of the map when the track was lost
   bool joining_ = false;        // the adjustment started last is that of a join
   bool zoom_told_ = false;
+  bool turn_told_ = false;
   bool after_keyframe_ = false;  // the frame seen last is one
   int lost_in_row_ = 0;
   int32_t unkept_ = -1;         // keyframe whose place has not been kept yet
