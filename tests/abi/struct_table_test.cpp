@@ -72,7 +72,7 @@ AT(unisim_keyframe, struct_size, 0);
 AT(unisim_keyframe, reserved, 4);
 AT(unisim_keyframe, timestamp_ns, 8);
 
-SIZE(unisim_two_view, 136);
+SIZE(unisim_two_view, 144);
 AT(unisim_two_view, struct_size, 0);
 AT(unisim_two_view, i, 4);
 AT(unisim_two_view, j, 8);
@@ -81,6 +81,7 @@ AT(unisim_two_view, T_i_j, 16);
 AT(unisim_two_view, depth_i, 80);
 AT(unisim_two_view, depth_j, 104);
 AT(unisim_two_view, center_sigma, 128);
+AT(unisim_two_view, log_scale_sigma, 136);
 
 SIZE(unisim_submap, 40);
 AT(unisim_submap, struct_size, 0);
@@ -94,7 +95,7 @@ SIZE(unisim_submap_update, 40);
 AT(unisim_submap_update, struct_size, 0);
 AT(unisim_submap_update, submap_id, 4);
 AT(unisim_submap_update, count, 8);
-AT(unisim_submap_update, reserved, 12);
+AT(unisim_submap_update, scale_settled, 12);
 AT(unisim_submap_update, T_submap_kf, 16);
 AT(unisim_submap_update, log_depth_ratio, 24);
 AT(unisim_submap_update, center_sigma, 32);
