@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <new>
 #include <thread>
 
 #include "drivers/lcm/error.hpp"
@@ -60,7 +61,12 @@ class OdometryListener::Impl {
     }
     const pipeline::OdometryPosition position = {1000 * pose.utime,
                                                  {pose.pos[0], pose.pos[1], pose.pos[2]}};
-    ++(inbox_->add(position, common_sigma_) ? taken_ : refused_);
+    // The caller is LCM, which is C: nothing may be thrown through it.
+    try {
+      ++(inbox_->add(position, common_sigma_) ? taken_ : refused_);
+    } catch (const std::bad_alloc&) {
+      ++refused_;
+    }
   }
 
   void listen() {

@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <cstring>
 #include <mutex>
+#include <new>
 #include <string>
 #include <thread>
 #include <utility>
@@ -58,15 +59,25 @@ class Subscriber final : public sequence::FrameSource {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (sequence::is_image_message(bytes, size)) {
-        ++received_;
-        passed_over_ += fresh_ ? 1 : 0;
-        newest_.assign(bytes, bytes + size);
-        fresh_ = true;
+        keep(bytes, size);
       } else {
         ++foreign_;
       }
     }
     changed_.notify_all();
+  }
+
+  /// The caller is LCM, which is C: nothing may be thrown through it.
+  void keep(const uint8_t* bytes, size_t size) {
+    ++received_;
+    passed_over_ += fresh_ ? 1 : 0;
+    fresh_ = false;
+    try {
+      newest_.assign(bytes, bytes + size);
+      fresh_ = true;
+    } catch (const std::bad_alloc&) {
+      ++passed_over_;
+    }
   }
 
   void listen() {

@@ -3,6 +3,8 @@
 #include "tools/live/web/feed.hpp"
 
 #include <chrono>
+#include <new>
+#include <opencv2/core.hpp>
 #include <utility>
 
 #include "tools/live/scheduling.hpp"
@@ -52,14 +54,22 @@ void Feed::loop() {
     lock.unlock();
     const Clock::time_point now = Clock::now();
     if (fresh) newest = now;
+    const std::chrono::duration<double> silent = now - newest;
+    const bool status_due = now >= next_status;
+    if (status_due) next_status = now + kStatusPeriod;
+    tell(view, fresh, status_due ? silent.count() : -1.0);
+    lock.lock();
+  }
+}
+
+/// Where there is no memory for an event the page goes without it: tracking goes on.
+void Feed::tell(const View& view, bool fresh, double silent_s) {
+  try {
     if (fresh && view.has_map) publish(EventKind::kMap, text_.map(view));
     if (fresh && view.has_image && watched()) publish(EventKind::kFrame, text_.frame(view));
-    if (now >= next_status) {
-      next_status = now + kStatusPeriod;
-      const std::chrono::duration<double> silent = now - newest;
-      publish(EventKind::kStatus, text_.status(view, silent.count()));
-    }
-    lock.lock();
+    if (silent_s >= 0.0) publish(EventKind::kStatus, text_.status(view, silent_s));
+  } catch (const std::bad_alloc&) {
+  } catch (const cv::Exception&) {
   }
 }
 

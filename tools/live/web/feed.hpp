@@ -62,6 +62,8 @@ class Feed {
   };
 
   void loop();
+  /// @param silent_s seconds since the newest view, < 0: no status is due
+  void tell(const View& view, bool fresh, double silent_s);
   void publish(EventKind kind, std::string text);
 
   std::atomic<int> watchers_{0};
