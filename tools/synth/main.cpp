@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // unisim-synth: renders a sequence with exact ground truth.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
@@ -28,13 +30,12 @@ void parse_size(const std::string& text, SequenceOptions* options) {
 }
 
 void run(const SequenceOptions& options, bool quiet) {
+  const bool counting = !quiet && isatty(STDERR_FILENO) != 0;
   unisim::synth::write_sequence(options, [&](int done) {
-    if (!quiet) {
-      std::fprintf(stderr, "\r%d of %d frames", done, options.frames);
-    }
+    if (counting) std::fprintf(stderr, "\r%d of %d frames", done, options.frames);
   });
+  if (counting) std::fprintf(stderr, "\r");
   if (!quiet) {
-    std::fprintf(stderr, "\r");
     unisim::tools::print(std::to_string(options.frames) + " frames of " + options.scene + ", " +
                          std::to_string(options.width) + "x" + std::to_string(options.height) +
                          ", in " + options.folder + "\n");
