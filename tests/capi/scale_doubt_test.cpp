@@ -64,16 +64,21 @@ struct Walk {
   }
 };
 
+/// Pairs alone, the one that ends at kTurn with this doubt.
+void feed_up_to_turn(Host& host, World& world, double log_scale_sigma) {
+  feed_pairs(host, world, kTurn);
+  host.add_keyframe();
+  Pair pair = world.pair(kTurn - 1);
+  pair.two_view.log_scale_sigma = log_scale_sigma;
+  REQUIRE(host.add_pair(pair) == UNISIM_OK);
+}
+
 }  // namespace
 
 TEST_CASE("a pair with a guessed scale is taken, and the state says so until the next one") {
   World world(40, 6U);
   Host host(small_windows(0));
-  feed_pairs(host, world, kTurn);
-  host.add_keyframe();
-  Pair pair = world.pair(kTurn - 1);
-  pair.two_view.log_scale_sigma = kSigma;
-  REQUIRE(host.add_pair(pair) == UNISIM_OK);
+  feed_up_to_turn(host, world, kSigma);
   CHECK(host.info().state == UNISIM_STATE_DEGRADED);
   CHECK(host.info().pairs_refused == 0);
   CHECK(host.info().lost_events == 0);
@@ -89,11 +94,7 @@ TEST_CASE("a pair with a guessed scale is taken, and the state says so until the
 TEST_CASE("a scale that is hardly in doubt degrades nothing") {
   World world(40, 6U);
   Host host(small_windows(0));
-  feed_pairs(host, world, kTurn);
-  host.add_keyframe();
-  Pair pair = world.pair(kTurn - 1);
-  pair.two_view.log_scale_sigma = 0.05;
-  REQUIRE(host.add_pair(pair) == UNISIM_OK);
+  feed_up_to_turn(host, world, 0.05);
   CHECK(host.info().state == UNISIM_STATE_TRACKING);
 }
 

@@ -39,12 +39,17 @@ function(require_same_path here there)
   endif()
 endfunction()
 
-# count_published(LOG COUNT): messages of UNISIM_POSE in an LCM log.
-function(count_published path count)
-  file(READ ${path} log HEX)
-  string(REGEX MATCHALL "554e4953494d5f504f5345" published "${log}")
+# require_published(FOLDER LOG MOST_LATE): of the poses of a run, 20 or more, all but MOST_LATE are in its LCM log.
+function(require_published folder log most_late)
+  file(STRINGS ${folder}/trajectory_live.tum poses REGEX "^[^#]")
+  list(LENGTH poses given)
+  file(READ ${log} bytes HEX)
+  string(REGEX MATCHALL "554e4953494d5f504f5345" published "${bytes}") # UNISIM_POSE
   list(LENGTH published sent)
-  set(${count} ${sent} PARENT_SCOPE)
+  math(EXPR late "${given} - ${sent}")
+  if(given LESS 20 OR late LESS 0 OR late GREATER most_late)
+    message(FATAL_ERROR "of ${given} poses of ${folder} on aarch64 ${sent} are in its LCM log")
+  endif()
 endfunction()
 
 set(work ${FOLDER}/run)
@@ -76,12 +81,7 @@ foreach(name trajectory.tum trajectory_frames.tum)
 endforeach()
 
 # Each pose that was given out there was published there.
-file(STRINGS ${work}/there/trajectory_live.tum poses REGEX "^[^#]")
-list(LENGTH poses given)
-count_published(${work}/poses.lcm sent)
-if(NOT sent EQUAL given OR given LESS 20)
-  message(FATAL_ERROR "of ${given} poses on aarch64 ${sent} are in its LCM log")
-endif()
+require_published(${work}/there ${work}/poses.lcm 0)
 
 # A camera there: frames come half a second apart, since the emulated processor is slow, and those it has no time for are
 # dropped. What it tracked is recorded, and replayed here it has the poses that were given out there.
@@ -106,13 +106,7 @@ foreach(name trajectory.tum trajectory_frames.tum)
   require_same_path(${work}/live_here/${name} ${work}/live/${name})
 endforeach()
 # Poses to act by are sent, the few of the frames before the start are not.
-file(STRINGS ${work}/live/trajectory_live.tum poses REGEX "^[^#]")
-list(LENGTH poses given)
-count_published(${work}/live.lcm sent)
-math(EXPR late "${given} - ${sent}")
-if(given LESS 20 OR late LESS 0 OR late GREATER 10)
-  message(FATAL_ERROR "of ${given} poses of unisim-live on aarch64 ${sent} are in its LCM log")
-endif()
+require_published(${work}/live ${work}/live.lcm 10)
 
 # The driver of cameras asks the kernel: there is none, or it is listed.
 execute_process(COMMAND ${emulated} ${FOLDER}/bin/unisim-live --list

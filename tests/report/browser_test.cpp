@@ -2,12 +2,10 @@
 // A browser opens the page from a file and runs its script.
 #include "tests/support/browser.hpp"
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/temp_folder.hpp"
 #include "tools/replay/report/report.hpp"
 
 using namespace unisim::testing;
@@ -18,15 +16,12 @@ TEST_CASE("a browser runs the script of the page") {
     WARN("skipped: no chromium");
     return;
   }
-  std::string folder = (std::filesystem::temp_directory_path() / "unisim-report-XXXXXX").string();
-  REQUIRE(mkdtemp(folder.data()) != nullptr);
+  const TempFolder folder;
   unisim::report::ReportData data;
   data.title = "page";
   for (int k = 0; k < 9; ++k) data.estimate.push_back({1.0 * k, 1.0 * k, 0.1 * k * k, 0.0, 0});
-  std::ofstream(folder + "/page.html") << unisim::report::report_html(data);
-  const std::string dom = document_of(browser, "file://" + folder + "/page.html", 500, folder);
-  std::error_code ignored;
-  std::filesystem::remove_all(folder, ignored);
+  const std::string page = folder.write("page.html", unisim::report::report_html(data));
+  const std::string dom = document_of(browser, "file://" + page, 500, folder.path());
   if (dom.empty()) {
     WARN("skipped: " << browser << " does not start here");
     return;

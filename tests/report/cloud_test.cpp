@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/temp_folder.hpp"
 
 using unisim::replay::Cloud;
 using unisim::replay::CloudOptions;
@@ -91,15 +91,6 @@ unisim_pose pose_of(int32_t id, int32_t segment = 0) {
   return pose;
 }
 
-struct TempFile {
-  std::string folder = "/tmp/unisim-cloud-XXXXXX";
-  TempFile() { REQUIRE(mkdtemp(folder.data()) != nullptr); }
-  ~TempFile() { std::filesystem::remove_all(folder); }
-  TempFile(const TempFile&) = delete;
-  TempFile& operator=(const TempFile&) = delete;
-  std::string path() const { return folder + "/map.ply"; }
-};
-
 /// What places the views: poses of the keyframes, scales of the submaps.
 struct Placing {
   std::vector<unisim_pose> keyframes;
@@ -108,12 +99,13 @@ struct Placing {
 
 std::vector<Vertex> fuse(const Cloud& cloud, const Placing& placing, double k1 = 0.0,
                          double focal_px = 0.0) {
-  const TempFile file;
+  const TempFolder folder;
+  const std::string path = folder / "map.ply";
   RunData run;
   for (const unisim_pose& pose : placing.keyframes) run.keyframes.push_back({pose, 0, -1.0});
   run.submap_scale = placing.submap_scale;
-  const int64_t count = cloud.write(file.path(), run, {k1, focal_px});
-  std::vector<Vertex> vertices = read_ply(file.path());
+  const int64_t count = cloud.write(path, run, {k1, focal_px});
+  std::vector<Vertex> vertices = read_ply(path);
   CHECK(count == static_cast<int64_t>(vertices.size()));
   return vertices;
 }
@@ -245,8 +237,8 @@ TEST_CASE("a revision changes the depth of its submap alone") {
 
 TEST_CASE("a keyframe that has left the window keeps the depth it had") {
   const Picture picture;
-  const TempFile temporary;
-  Cloud cloud({}, temporary.folder);
+  const TempFolder temporary;
+  Cloud cloud({}, temporary.path());
   for (int32_t id = 0; id < 2; ++id) {
     cloud.on_keyframe(id, picture.frame);
     cloud.on_window(id, Window(id).prediction);
@@ -269,8 +261,8 @@ TEST_CASE("a keyframe that has left the window keeps the depth it had") {
 
 TEST_CASE("views in memory do not grow with the run, and none is lost") {
   const Picture picture;
-  const TempFile temporary;
-  Cloud cloud({}, temporary.folder);
+  const TempFolder temporary;
+  Cloud cloud({}, temporary.path());
   Placing placing;
   constexpr int32_t kKeyframes = 2 * Cloud::kViewsInMemory;
   for (int32_t id = 0; id < kKeyframes; ++id) {
@@ -280,7 +272,7 @@ TEST_CASE("views in memory do not grow with the run, and none is lost") {
     placing.keyframes.push_back(pose_of(id));
     placing.submap_scale.push_back(1.0);
   }
-  CHECK(std::filesystem::is_empty(temporary.folder));
+  CHECK(std::filesystem::is_empty(temporary.path()));
   CHECK(fuse(cloud, placing).size() == size_t{kKeyframes} * kColumns * kRows);
 }
 

@@ -14,10 +14,8 @@ extern "C" {
 /** Tracking state. */
 #define UNISIM_STATE_INIT 0     /**< no pose yet */
 #define UNISIM_STATE_TRACKING 1 /**< the newest pair was accepted */
-#define UNISIM_STATE_DEGRADED                                                                 \
-  2                                /**< the newest pair was rejected and the pose is held, or \
-                                   its scale is a guess */
-#define UNISIM_STATE_LOST 3        /**< lost_after pairs in a row were rejected */
+#define UNISIM_STATE_DEGRADED 2 /**< it was rejected, the pose is held; or its scale is a guess */
+#define UNISIM_STATE_LOST 3     /**< lost_after pairs in a row were rejected */
 #define UNISIM_STATE_RELOCALISED 4 /**< a loop has joined the segments after a loss */
 
 /** Pose of a keyframe. */

@@ -83,23 +83,26 @@ void Mapper::see(const unisim_frame& frame) {
   if (counts_.started == 0) start_.see_frame(front_end_.gray());
 }
 
-/// Once: what follows a zoom, another one too, is of another size anyway.
-void Mapper::tell_zoom(int64_t frame) {
-  if (zoom_told_) return;
-  zoom_told_ = true;
+void Mapper::tell_once(bool* told, const std::string& what) {
+  if (*told) return;
+  *told = true;
   if (!remark_.empty()) remark_ += "; ";
-  remark_ += "the camera seems to have zoomed near frame " + std::to_string(frame) +
-             ": poses and depths after it are of another size and bent; film without zoom";
+  remark_ += what;
 }
 
-/// Once: the state says so each time.
+/// What follows a zoom, another one too, is of another size anyway.
+void Mapper::tell_zoom(int64_t frame) {
+  tell_once(&zoom_told_,
+            "the camera seems to have zoomed near frame " + std::to_string(frame) +
+                ": poses and depths after it are of another size and bent; film without zoom");
+}
+
+/// The state says so each time.
 void Mapper::tell_turn() {
-  if (turn_told_) return;
-  turn_told_ = true;
-  if (!remark_.empty()) remark_ += "; ";
-  remark_ += "the camera turned on the spot near frame " + std::to_string(frame_) +
-             " until nothing it had measured was in view: how large things are from there on is a "
-             "guess, and the state DEGRADED, until a place from before is seen again";
+  tell_once(&turn_told_,
+            "the camera turned on the spot near frame " + std::to_string(frame_) +
+                " until nothing it had measured was in view: how large things are from there on "
+                "is a guess, and the state DEGRADED, until a place from before is seen again");
 }
 
 void Mapper::note_followed() {

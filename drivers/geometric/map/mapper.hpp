@@ -77,6 +77,8 @@ class Mapper {
 
  private:
   void archive_looks(drivers::Archive* io);
+  /// Adds a remark that is made once in a run.
+  void tell_once(bool* told, const std::string& what);
   void tell_zoom(int64_t frame);
   void tell_turn();
   void note_followed();
