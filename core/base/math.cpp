@@ -32,6 +32,19 @@ constexpr double kAtan[9] = {0.0,
                              0.7188299996216245,
                              0.7853981633974483};
 
+constexpr int kExpTerms = 15;
+constexpr int kLogTerms = 10;
+
+// 1 / n.
+struct Reciprocals {
+  static constexpr int kLast = 2 * kLogTerms + 1;
+  constexpr Reciprocals() {
+    for (int n = 1; n <= kLast; ++n) of[n] = 1.0 / n;
+  }
+  double of[kLast + 1] = {};
+};
+constexpr Reciprocals kReciprocals;
+
 int64_t nearest(double x) { return static_cast<int64_t>(x + (x < 0.0 ? -0.5 : 0.5)); }
 
 // 2^exponent for a normal result.
@@ -44,9 +57,8 @@ double power_of_two(int64_t exponent) {
 
 // e^r - 1 for |r| < 0.5.
 double expm1_series(double r) {
-  constexpr int kTerms = 15;
   double sum = 1.0;
-  for (int n = kTerms; n >= 3; --n) sum = 1.0 + r / n * sum;
+  for (int n = kExpTerms; n >= 3; --n) sum = 1.0 + r * kReciprocals.of[n] * sum;
   return r + 0.5 * (r * r) * sum;
 }
 
@@ -70,7 +82,7 @@ double log_series(double m, int terms) {
   const double y = (m - 1.0) / (m + 1.0);
   const double y2 = y * y;
   double sum = 0.0;
-  for (int k = terms; k >= 1; --k) sum = y2 * (1.0 / (2 * k + 1) + sum);
+  for (int k = terms; k >= 1; --k) sum = y2 * (kReciprocals.of[2 * k + 1] + sum);
   return 2.0 * y + 2.0 * y * sum;
 }
 
@@ -96,7 +108,7 @@ double log(double x) {
   int64_t exponent;
   const double m = split(subnormal ? x * power_of_two(kScaleBits) : x, &exponent);
   const double e = static_cast<double>(subnormal ? exponent - kScaleBits : exponent);
-  return e * kLn2High + (log_series(m, 10) + e * kLn2Low);
+  return e * kLn2High + (log_series(m, kLogTerms) + e * kLn2Low);
 }
 
 float log(float x) {

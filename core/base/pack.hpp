@@ -84,6 +84,16 @@ UNISIM_ALWAYS_INLINE void scatter_add_four(Pack p0, Pack p1, Pack p2, Pack p3,
   }
 }
 
+/// Subtracts them.
+UNISIM_ALWAYS_INLINE void scatter_subtract_four(Pack p0, Pack p1, Pack p2, Pack p3,
+                                                double* const from[kPackLanes], int first) {
+  Pack p[4] = {p0, p1, p2, p3};
+  transpose(p);
+  for (int lane = 0; lane < kPackLanes; ++lane) {
+    *reinterpret_cast<Pack*>(from[lane] + first) -= p[lane];
+  }
+}
+
 #else
 
 UNISIM_ALWAYS_INLINE Pack load(const double v[kPackLanes]) { return Pack{v[0], v[1]}; }
@@ -105,6 +115,16 @@ UNISIM_ALWAYS_INLINE void scatter_add_four(Pack p0, Pack p1, Pack p2, Pack p3,
   Pack* lane_1 = reinterpret_cast<Pack*>(to[1] + first);
   lane_1[0] += UNISIM_SHUFFLE(p0, p1, 1, 3);
   lane_1[1] += UNISIM_SHUFFLE(p2, p3, 1, 3);
+}
+
+UNISIM_ALWAYS_INLINE void scatter_subtract_four(Pack p0, Pack p1, Pack p2, Pack p3,
+                                                double* const from[kPackLanes], int first) {
+  Pack* lane_0 = reinterpret_cast<Pack*>(from[0] + first);
+  lane_0[0] -= UNISIM_SHUFFLE(p0, p1, 0, 2);
+  lane_0[1] -= UNISIM_SHUFFLE(p2, p3, 0, 2);
+  Pack* lane_1 = reinterpret_cast<Pack*>(from[1] + first);
+  lane_1[0] -= UNISIM_SHUFFLE(p0, p1, 1, 3);
+  lane_1[1] -= UNISIM_SHUFFLE(p2, p3, 1, 3);
 }
 
 #endif

@@ -6,6 +6,7 @@
 // little, so the rotation comes last.
 #pragma once
 
+#include "core/graph/robust_kernel_pack.hpp"
 #include "core/lie/sim3_log_pack.hpp"
 
 namespace unisim {
@@ -30,33 +31,45 @@ struct PackVector {
   Pack s;
 };
 
-/// u^2 = e' Lambda e as a quadratic form of right perturbations of a and b.
+/// rho(u) and the quadratic form w e' Lambda e of right perturbations of a and b that stands in for
+/// it. Of H_aa and H_bb only the lower triangles count.
 struct PackNormal {
-  Pack u_squared;
+  Pack cost;
   PackSymmetric H_aa, H_bb;
   PackBlocks minus_H_ba;
   PackVector g_b, minus_g_a;
 };
 
+/// Puts the kernel on the form of b, whose square is known.
+UNISIM_ALWAYS_INLINE void weigh(const PackKernel& kernel, Pack square, PackNormal* out) {
+  const PackRobustCost robust = robust_cost(kernel, kernel.weight * square);
+  const Pack w = kernel.weight * robust.weight;
+  out->cost = robust.cost;
+  PackSymmetric& S = out->H_bb;
+  S = {w * S.tt, w * S.tr, w * S.rr, w * S.ts, w * S.rs, w * S.ss};
+  out->g_b = {w * out->g_b.t, w * out->g_b.r, w * out->g_b.s};
+}
+
 /// M' M and M' e.
 UNISIM_ALWAYS_INLINE void square(const PackJacobianInverse& M, const PackTangent& e,
-                                 PackNormal* out) {
+                                 const PackKernel& kernel, PackNormal* out) {
   PackSymmetric& S = out->H_bb;
-  S.tt = transposed_times(M.V_inv, M.V_inv);
+  S.tt = M.VV;
   S.tr = transposed_times(M.V_inv, M.X);
-  S.rr = transposed_times(M.X, M.X) + transposed_times(M.J_inv, M.J_inv);
+  S.rr = square(M.X) + M.JJ;
   S.ts = times(M.x, M.V_inv);
   S.rs = times(M.x, M.X);
   S.ss = dot(M.x, M.x) + 1.0;
   out->g_b.t = times(e.rho, M.V_inv);
   out->g_b.r = times(e.rho, M.X) + times(e.phi, M.J_inv);
   out->g_b.s = dot(M.x, e.rho) + e.sigma;
-  out->u_squared = dot(e.rho, e.rho) + dot(e.phi, e.phi) + e.sigma * e.sigma;
+  weigh(kernel, dot(e.rho, e.rho) + dot(e.phi, e.phi) + e.sigma * e.sigma, out);
 }
 
 /// M' Lambda M and M' Lambda e.
 UNISIM_ALWAYS_INLINE void weighted_square(const PackJacobianInverse& M, const PackTangent& e,
-                                          const PackSymmetric& L, PackNormal* out) {
+                                          const PackSymmetric& L, const PackKernel& kernel,
+                                          PackNormal* out) {
   const Pack33 rt = transposed(L.tr);
   const Pack33 L_tr = times(L.tt, M.X) + times(L.tr, M.J_inv);  // Lambda M by blocks
   const Pack33 L_rr = times(rt, M.X) + times(L.rr, M.J_inv);
@@ -75,30 +88,31 @@ UNISIM_ALWAYS_INLINE void weighted_square(const PackJacobianInverse& M, const Pa
   out->g_b.t = times(l_t, M.V_inv);
   out->g_b.r = times(l_t, M.X) + times(l_r, M.J_inv);
   out->g_b.s = dot(M.x, l_t) + l_s;
-  out->u_squared = dot(e.rho, l_t) + dot(e.phi, l_r) + e.sigma * l_s;
+  weigh(kernel, dot(e.rho, l_t) + dot(e.phi, l_r) + e.sigma * l_s, out);
 }
 
 /// S Ad(T) and Ad(T)' S Ad(T).
 UNISIM_ALWAYS_INLINE void sandwich(const PackSymmetric& S, const PackSim3& T, PackBlocks* half,
                                    PackSymmetric* whole) {
   const Pack33 R = rotation_matrix(T.q);
+  const Pack33 sR = T.s * R;
   const Pack33 rt = transposed(S.tr);
   const Pack33 tr = times_hat(S.tt, T.t) + S.tr;  // before the rotation
   const Pack33 rr = times_hat(rt, T.t) + S.rr;
-  half->tt = T.s * times(S.tt, R);
+  half->tt = times(S.tt, sR);
   half->tr = times(tr, R);
   half->ts = S.ts - times(S.tt, T.t);
-  half->rt = T.s * times(rt, R);
+  half->rt = times(rt, sR);
   half->rr = times(rr, R);
   half->rs = S.rs - times(rt, T.t);
-  half->st = T.s * times(S.ts, R);
+  half->st = times(S.ts, sR);
   half->sr = times(cross(S.ts, T.t) + S.rs, R);
   half->ss = S.ss - dot(S.ts, T.t);
 
-  whole->tt = T.s * transposed_times(R, half->tt);
-  whole->tr = T.s * transposed_times(R, half->tr);
+  whole->tt = transposed_times(sR, half->tt);
+  whole->tr = transposed_times(sR, half->tr);
   whole->rr = transposed_times(R, times(hat_transposed_times(T.t, tr) + rr, R));
-  whole->ts = T.s * times(half->ts, R);
+  whole->ts = times(half->ts, sR);
   whole->rs = times(cross(half->ts, T.t) + half->rs, R);
   whole->ss = half->ss - dot(half->ts, T.t);
 }
@@ -119,12 +133,12 @@ UNISIM_ALWAYS_INLINE void add_other_node(const PackSim3& T, PackNormal* out) {
 /// @param Q nullptr: identity, which saves a sandwich
 UNISIM_ALWAYS_INLINE void relative_pose_normal(const PackSim3& A, const PackSim3& B,
                                                const PackSim3& P, const PackSim3* Q,
-                                               PackNormal* out) {
+                                               const PackKernel& kernel, PackNormal* out) {
   const PackSim3 D = between(A, B);
   PackTangent e;
   PackJacobianInverse M;
   log_with_jacobian(between(P, Q == nullptr ? D : times(D, *Q)), &e, &M);
-  square(M, e, out);
+  square(M, e, kernel, out);
   if (Q != nullptr) {
     const PackSim3 Q_inverse = inverse(*Q);
     const PackSymmetric inner = out->H_bb;
@@ -137,12 +151,13 @@ UNISIM_ALWAYS_INLINE void relative_pose_normal(const PackSim3& A, const PackSim3
 
 /// A chain factor: full information.
 UNISIM_ALWAYS_INLINE void chain_normal(const PackSim3& A, const PackSim3& B, const PackSim3& Z,
-                                       const PackSymmetric& Lambda, PackNormal* out) {
+                                       const PackSymmetric& Lambda, const PackKernel& kernel,
+                                       PackNormal* out) {
   const PackSim3 D = between(A, B);
   PackTangent e;
   PackJacobianInverse M;
   log_with_jacobian(between(Z, D), &e, &M);
-  weighted_square(M, e, Lambda, out);
+  weighted_square(M, e, Lambda, kernel, out);
   add_other_node(inverse(D), out);
 }
 

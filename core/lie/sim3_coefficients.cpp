@@ -18,6 +18,7 @@ constexpr double kZSeries = 0.5;        // |z|^2 below which the power series ar
 constexpr double kZShortSeries = 0.01;  // |z|^2 below which half the terms suffice
 constexpr int kAngleTerms = 8;
 constexpr int kExpTerms = 20;
+constexpr int kExpShortTerms = 10;
 constexpr int kBernoulliTerms = 10;
 constexpr int kBernoulliShortTerms = 5;
 
@@ -45,16 +46,28 @@ Power times_z(const Power& p, double theta2, double sigma) {
   return {sigma * p.re - theta2 * p.im, p.re + sigma * p.im, sigma * p.gap + p.im};
 }
 
-ExpCoefficients exp_series(double theta2, double sigma) {
+// 1 / (n + 1)!.
+struct Reciprocals {
+  constexpr Reciprocals() {
+    double factorial = 1.0;
+    for (int n = 0; n < kExpTerms; ++n) {
+      factorial *= n + 1;
+      of_factorial[n] = 1.0 / factorial;
+    }
+  }
+  double of_factorial[kExpTerms] = {};
+};
+constexpr Reciprocals kReciprocals;
+
+ExpCoefficients exp_series(double theta2, double sigma, int terms) {
   Power p{1.0, 0.0, 0.0};
   ExpCoefficients out{1.0, 0.0, 0.0};
-  double factorial = 1.0;
-  for (int n = 1; n < kExpTerms; ++n) {
+  for (int n = 1; n < terms; ++n) {
     p = times_z(p, theta2, sigma);
-    factorial *= n + 1;
-    out.A += (p.re + theta2 * p.gap) / factorial;
-    out.B += p.im / factorial;
-    out.C += p.gap / factorial;
+    const double k = kReciprocals.of_factorial[n];
+    out.A += k * (p.re + theta2 * p.gap);
+    out.B += k * p.im;
+    out.C += k * p.gap;
   }
   return out;
 }
@@ -162,7 +175,8 @@ AngleTerms angle_terms(double theta2) {
 
 ExpCoefficients exp_coefficients(double theta2, double sigma) {
   const double z2 = theta2 + sigma * sigma;
-  if (z2 < kZSeries) return exp_series(theta2, sigma);
+  if (z2 < kZShortSeries) return exp_series(theta2, sigma, kExpShortTerms);
+  if (z2 < kZSeries) return exp_series(theta2, sigma, kExpTerms);
   const AngleTerms angle = angle_terms(theta2);
   const double E = math::exp(sigma);
   const double E1 = math::expm1(sigma);

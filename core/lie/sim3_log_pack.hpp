@@ -26,6 +26,8 @@ struct PackJacobianInverse {
   Pack33 X;
   Pack33 J_inv;
   Pack3 x;
+  Pack33 VV;  ///< V_inv' V_inv
+  Pack33 JJ;  ///< J_inv' J_inv
 };
 
 /// As LogCoefficients.
@@ -124,7 +126,14 @@ UNISIM_ALWAYS_INLINE void replace_lanes(PackMask in_range, const PackQuat& q, Pa
 
 /// a I + b K + c K^2.
 UNISIM_ALWAYS_INLINE Pack33 polynomial(const Pack3& phi, Pack theta2, Pack a, Pack b, Pack c) {
-  return plus_diagonal(plus_hat(outer(c * phi, phi), b * phi), a - c * theta2);
+  return plus_diagonal(plus_hat(square(c * phi, phi), b * phi), a - c * theta2);
+}
+
+/// M' M for M = a I + b K + c K^2: K' = -K and K^4 = -theta^2 K^2 leave a^2 I + k K^2.
+UNISIM_ALWAYS_INLINE Pack33 polynomial_square(const Pack3& phi, Pack theta2, Pack a, Pack b,
+                                              Pack c) {
+  const Pack k = 2.0 * a * c - b * b - c * c * theta2;
+  return plus_diagonal(square(k * phi, phi), a * a - k * theta2);
 }
 
 /// Logarithm e of T and the blocks of J_r^-1(e) = J_l^-1(e) + ad(e), J_l^-1 as in sim3.cpp.
@@ -156,6 +165,8 @@ UNISIM_ALWAYS_INLINE void log_with_jacobian(const PackSim3& T, PackTangent* e,
   M->V_inv = plus_diagonal(plus_hat(V_left, phi), sigma);
   M->X = plus_hat(times(D, J_left) - times_hat(V_left, T.t), e->rho);
   M->J_inv = plus_hat(J_left, phi);
+  M->VV = polynomial_square(phi, theta2, k.a + sigma, k.b + 1.0, k.c);
+  M->JJ = polynomial_square(phi, theta2, splat(1.0), splat(0.5), k.c_rotation);
   M->x = k.a_sigma * T.t + k.b_sigma * once + k.c_sigma * twice;
 }
 

@@ -98,6 +98,20 @@ UNISIM_ALWAYS_INLINE Pack33 plus_diagonal(Pack33 A, Pack k) {
   A.row[2].z += k;
   return A;
 }
+/// A symmetric matrix from its lower triangle.
+UNISIM_ALWAYS_INLINE Pack33 symmetric(Pack xx, Pack yx, Pack yy, Pack zx, Pack zy, Pack zz) {
+  return {{{xx, yx, zx}, {yx, yy, zy}, {zx, zy, zz}}};
+}
+/// a b' where it is symmetric.
+UNISIM_ALWAYS_INLINE Pack33 square(const Pack3& a, const Pack3& b) {
+  return symmetric(a.x * b.x, a.y * b.x, a.y * b.y, a.z * b.x, a.z * b.y, a.z * b.z);
+}
+/// A' A.
+UNISIM_ALWAYS_INLINE Pack33 square(const Pack33& A) {
+  const Pack33 C = transposed(A);
+  return symmetric(dot(C.row[0], C.row[0]), dot(C.row[1], C.row[0]), dot(C.row[1], C.row[1]),
+                   dot(C.row[2], C.row[0]), dot(C.row[2], C.row[1]), dot(C.row[2], C.row[2]));
+}
 /// a b'.
 UNISIM_ALWAYS_INLINE Pack33 outer(const Pack3& a, const Pack3& b) {
   return {{a.x * b, a.y * b, a.z * b}};

@@ -10,8 +10,8 @@
 namespace unisim {
 namespace {
 
-constexpr double kExpSeries = 1e-4;  // theta^2 below which exp needs no trigonometry
-constexpr double kLogSeries = 1e-4;  // tan^2(theta/2) below which log needs none
+constexpr double kExpSeries = 0.0625;  // theta^2 below which exp needs no trigonometry
+constexpr double kLogSeries = 1e-4;    // tan^2(theta/2) below which log needs none
 
 Mat3 polynomial(const Vec3& phi, double b, double c) {
   const Mat3 K = hat(phi);
@@ -33,8 +33,9 @@ Quat so3_exp(const Vec3& phi) {
   double w;
   double k;  // sin(theta / 2) / theta
   if (theta2 < kExpSeries) {
-    w = 1.0 - theta2 * (1.0 / 8 - theta2 * (1.0 / 384 - theta2 / 46080));
-    k = 0.5 - theta2 * (1.0 / 48 - theta2 / 3840);
+    const double x = 0.25 * theta2;
+    w = 1.0 - x * (1.0 / 2 - x * (1.0 / 24 - x * (1.0 / 720 - x * (1.0 / 40320 - x / 3628800))));
+    k = 0.5 * (1.0 - x * (1.0 / 6 - x * (1.0 / 120 - x * (1.0 / 5040 - x * (1.0 / 362880)))));
   } else {
     const double theta = std::sqrt(theta2);
     double sine;

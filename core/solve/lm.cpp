@@ -56,12 +56,20 @@ LevenbergMarquardt::LevenbergMarquardt(Arena& arena, const SolverCapacity& capac
 // node that has moved; and whose part of H has.
 void LevenbergMarquardt::note_changes(const Graph& graph) {
   if (graph.revision() == seen_revision_) return;
+  int32_t moved = 0;
   for (int32_t id = 0; id < graph.node_end(); ++id) {
     const int32_t column = pattern_.column_of_node(id);
     const uint8_t changes = graph.changes_since(id, seen_revision_);
     if (changes == 0 || column < 0) continue;
+    moved += (changes & kNodeMoved) != 0 ? 1 : 0;
     equations_.mark_changed(column);
     if ((changes & kNodeRelinked) != 0) cholesky_.mark_stale(column);
+  }
+  if (moved == pattern_.columns() && relinearize_ == 0.0) {  // the usual case of a whole graph
+    cholesky_.mark_all_stale();
+    equations_.forget_points();
+    seen_revision_ = graph.revision();
+    return;
   }
   for (int32_t id = 0; id < graph.edge_end(); ++id) {
     const Edge& edge = graph.edge(id);
@@ -141,8 +149,7 @@ double LevenbergMarquardt::linearize(const Graph& graph) {
   for (int32_t j = 0; j < pattern_.columns(); ++j) {
     if (equations_.has_changed(j)) cholesky_.mark_stale(j, Staleness::kRightSide);
   }
-  cholesky_.clear_stale();
-  return equations_.linearize(graph, pattern_, cholesky_.assembly(), relinearize_ > 0.0);
+  return equations_.linearize(graph, pattern_, cholesky_.begin_assembly(), relinearize_ > 0.0);
 }
 
 double LevenbergMarquardt::linearize_all(const Graph& graph) {

@@ -29,9 +29,11 @@ struct Example {
   Span<const int32_t> row_list() const { return {rows.data(), 2}; }
   Status factorize(BlockCholesky& cholesky, double lambda) const {
     cholesky.mark_all_stale();
-    cholesky.clear_stale();
-    const Assembly target = cholesky.assembly();
-    for (size_t j = 0; j < 3; ++j) target.blocks[target.diagonal[j]] = diagonal[j];
+    const Assembly target = cholesky.begin_assembly();
+    for (size_t j = 0; j < 3; ++j) {
+      target.open(static_cast<int32_t>(j));
+      target.blocks[target.diagonal[j]] = diagonal[j];
+    }
     for (size_t p = 0; p < 2; ++p) target.blocks[target.off_diagonal[p]] = off_diagonal[p];
     return cholesky.factorize(lambda);
   }

@@ -50,6 +50,25 @@ TEST_CASE("every free node has a column and every pair a slot") {
   CHECK(pattern->edge_slot(1).slot == pattern->edge_slot(4).slot);  // both join 1 and 2
 }
 
+TEST_CASE("edges come by their first column, those between fixed nodes last") {
+  CarvedGraph graph({5, 6, 6});
+  fill_ring(*graph);
+  REQUIRE(graph->set_fixed(1, true) == Status::kOk);
+  REQUIRE(graph->set_fixed(2, true) == Status::kOk);  // edges 1 and 4 join 1 and 2
+  CarvedPattern pattern({5, 6, 5, 15});
+  REQUIRE(pattern->build(*graph) == Status::kOk);
+  const auto first_column = [&](int32_t id) {
+    const int32_t a = pattern->column_of_node(graph->edge(id).a);
+    const int32_t b = pattern->column_of_node(graph->edge(id).b);
+    return a < 0 || b < 0 ? std::max(a, b) : std::min(a, b);
+  };
+  const Span<const int32_t> edges = pattern->edges();
+  REQUIRE(edges.size() == 6);
+  for (int32_t i = 1; i < 4; ++i) CHECK(first_column(edges[i - 1]) <= first_column(edges[i]));
+  CHECK(edges[4] == 1);
+  CHECK(edges[5] == 4);
+}
+
 TEST_CASE("rows ascend within a column") {
   CarvedGraph graph({5, 6, 6});
   fill_ring(*graph);

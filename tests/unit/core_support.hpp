@@ -122,13 +122,14 @@ class Assembled {
         start_(pattern.column_start().begin(), pattern.column_start().end()),
         rows_(pattern.rows().begin(), pattern.rows().end()),
         blocks_(static_cast<size_t>(columns_) + rows_.size()),
-        of_column_(static_cast<size_t>(columns_), 0),
+        state_(static_cast<size_t>(columns_), unisim::ColumnState::kOpen),
         place_(blocks_.size()) {
     std::iota(place_.begin(), place_.end(), 0);
     equations.mark_all_changed();
-    cost_ = equations.linearize(
-        graph, pattern,
-        {blocks_.data(), place_.data(), place_.data() + columns_, of_column_.data(), &all_}, false);
+    cost_ = equations.linearize(graph, pattern,
+                                {unisim::Supernodes(), blocks_.data(), place_.data(),
+                                 place_.data() + columns_, state_.data()},
+                                false);
   }
   double cost() const { return cost_; }
   int32_t columns() const { return columns_; }
@@ -152,10 +153,10 @@ class Assembled {
   }
   /// The same for stale columns only.
   void copy_stale_to(unisim::BlockCholesky& cholesky) const {
-    cholesky.clear_stale();
-    const unisim::Assembly target = cholesky.assembly();
+    const unisim::Assembly target = cholesky.begin_assembly();
     for (int32_t j = 0; j < columns_; ++j) {
       if (!target.wants(j)) continue;
+      target.open(j);
       target.blocks[target.diagonal[j]] = blocks_[static_cast<size_t>(j)];
       for (int32_t p = start_[static_cast<size_t>(j)]; p < start_[static_cast<size_t>(j) + 1];
            ++p) {
@@ -170,9 +171,8 @@ class Assembled {
   std::vector<int32_t> start_;
   std::vector<int32_t> rows_;
   std::vector<unisim::Block> blocks_;
-  std::vector<int32_t> of_column_;
+  std::vector<unisim::ColumnState> state_;
   std::vector<int32_t> place_;
-  unisim::Staleness all_ = unisim::Staleness::kFactor;
   double cost_ = 0.0;
 };
 

@@ -22,6 +22,7 @@ BlockCholesky::BlockCholesky(Arena& arena, const SolverCapacity& capacity)
       diagonal_(arena.take<int32_t>(capacity.nodes)),
       off_diagonal_(arena.take<int32_t>(capacity.pairs)),
       stale_(arena.take<Staleness>(capacity.nodes)),
+      column_state_(arena.take<ColumnState>(capacity.nodes)),
       fresh_(arena.take<uint8_t>(capacity.nodes)),
       moves_(arena.take<uint8_t>(capacity.nodes)),
       H_diagonal_(arena.take<BlockVector>(capacity.nodes)),
@@ -99,10 +100,7 @@ void BlockCholesky::choose_supernodes(Span<const int32_t> count, int32_t kept) {
   first_column_[supernodes_] = columns_;
 }
 
-int32_t BlockCholesky::block_count(int32_t s) const {
-  const int32_t width = first_column_[s + 1] - first_column_[s];
-  return triangle(width) + width * (row_start_[s + 1] - row_start_[s]);
-}
+int32_t BlockCholesky::block_count(int32_t s) const { return supernodes().block_count(s); }
 
 // @return false when the blocks do not fit
 bool BlockCholesky::place_supernodes(Span<const int32_t> count, int32_t kept) {
@@ -246,23 +244,17 @@ void BlockCholesky::mark_all_stale() {
   for (int32_t s = 0; s < supernodes_; ++s) stale_[s] = Staleness::kFactor;
 }
 
-void BlockCholesky::clear_stale() {
-  int32_t begin = 0;  // of a stretch of stale blocks that follow each other
-  int32_t end = 0;
-  const auto clear = [&]() {
-    const size_t bytes = static_cast<size_t>(end - begin) * sizeof(Block);
-    if (bytes > 0) std::memset(static_cast<void*>(&blocks_[begin]), 0, bytes);
-  };
-  for (int32_t s = 0; s < supernodes_; ++s) {
-    if (stale_[s] != Staleness::kFactor) continue;
-    if (block_start_[s] != end) {
-      clear();
-      begin = block_start_[s];
-      end = begin;
-    }
-    end += block_count(s);
+Assembly BlockCholesky::begin_assembly() {
+  for (int32_t j = 0; j < columns_; ++j) {
+    const bool stale = stale_[of_column_[j]] == Staleness::kFactor;
+    column_state_[j] = stale ? ColumnState::kWanted : ColumnState::kKept;
   }
-  clear();
+  return assembly();
+}
+
+Assembly BlockCholesky::assembly() {
+  return {supernodes(), blocks_.data(), diagonal_.data(), off_diagonal_.data(),
+          column_state_.data()};
 }
 
 Supernodes BlockCholesky::supernodes() const {
@@ -271,6 +263,8 @@ Supernodes BlockCholesky::supernodes() const {
 }
 
 Status BlockCholesky::factorize(double lambda, Span<BlockVector> x) {
+  const Assembly H = assembly();
+  for (int32_t j = 0; j < columns_; ++j) H.open(j);  // what no edge has a part in
   FactorTask task;
   task.S = supernodes();
   task.lists = {first_.data(), next_.data(), position_.data(), place_.data()};

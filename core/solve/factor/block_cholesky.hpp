@@ -18,10 +18,10 @@ namespace unisim {
 /// H + lambda diag(H) = L L', supernodal and left-looking, in the column order of H (best a
 /// postorder of the elimination tree: only neighbouring columns can share a supernode).
 ///
-/// analyze() per structure; then, as often as wanted: clear_stale(), assemble H into
-/// assembly(), factorize(), solve(). L overwrites H. Where only some columns of H have changed,
-/// mark_stale() them instead of all: what is not above them in the elimination tree keeps its part
-/// of L, even when the structure changes (keep(), reanalyze()).
+/// analyze() per structure; then, as often as wanted: assemble H into
+/// begin_assembly(), factorize(), solve(). L overwrites H. Where only some columns of H have
+/// changed, mark_stale() them instead of all: what is not above them in the elimination tree keeps
+/// its part of L, even when the structure changes (keep(), reanalyze()).
 class BlockCholesky {
  public:
   BlockCholesky() = default;
@@ -48,12 +48,8 @@ class BlockCholesky {
   void mark_stale(int32_t column, Staleness staleness = Staleness::kFactor);
   void mark_all_stale();
   Staleness staleness(int32_t column) const { return stale_[of_column_[column]]; }
-  /// Zero the blocks of stale columns, to assemble H anew there.
-  void clear_stale();
-  Assembly assembly() {
-    return {blocks_.data(), diagonal_.data(), off_diagonal_.data(), of_column_.data(),
-            stale_.data()};
-  }
+  /// Where H is to be put together anew, in stale columns.
+  Assembly begin_assembly();
 
   /// Numeric factorisation of H + lambda diag(H) where it is stale; nothing is stale afterwards.
   /// @return kOk; kNumerical when a pivot is not finite or not above 1e-13 of its diagonal element:
@@ -93,6 +89,7 @@ class BlockCholesky {
   void sort_kept_rows(int32_t s);
   void locate_blocks(Span<const int32_t> column_start, Span<const int32_t> rows);
   Supernodes supernodes() const;
+  Assembly assembly();
   int32_t parent_supernode(int32_t s) const;
   int32_t block_count(int32_t s) const;
 
@@ -109,8 +106,9 @@ class BlockCholesky {
   Span<int32_t> diagonal_;  // see Assembly
   Span<int32_t> off_diagonal_;
   Span<Staleness> stale_;
-  Span<uint8_t> fresh_;  // stale before the last factorisation, in any way
-  Span<uint8_t> moves_;  // column -> an element of x is larger than asked for
+  Span<ColumnState> column_state_;  // see Assembly
+  Span<uint8_t> fresh_;             // stale before the last factorisation, in any way
+  Span<uint8_t> moves_;             // column -> an element of x is larger than asked for
   Span<BlockVector> H_diagonal_;
   int32_t kept_ = 0;           // supernodes of the last keep()
   Span<int32_t> kept_column_;  // former numbers of their columns

@@ -64,6 +64,8 @@ NormalEquations::Ends NormalEquations::ends_of(const Graph& graph, int32_t id) c
   ends.needs_gradient = changed_a || changed_b || (a < 0 && b < 0);
   ends.is_whole = (a < 0 || wants_a) && (b < 0 || wants_b);
   ends.a_is_later = place.a_is_later;
+  if (wants_a) target_.open(a);
+  if (wants_b) target_.open(b);
   Block* const sink = sink_.data();
   const bool has_place = place.slot >= 0 && (place.a_is_later ? wants_b : wants_a);
   ends.diagonal_a = wants_a ? target_.blocks + target_.diagonal[a] : sink;
@@ -97,7 +99,7 @@ double NormalEquations::linearize(const Graph& graph, const BlockPattern& patter
   columns_ = pattern.columns();
   clear_changed();
   QuadCollector quads;
-  for (int32_t id = 0; id < graph.edge_end(); ++id) {
+  for (const int32_t id : pattern.edges()) {
     const Edge& edge = graph.edge(id);
     if (!edge.active()) {
       edge_cost_[id] = 0.0;
@@ -123,7 +125,7 @@ double NormalEquations::linearize(const Graph& graph, const BlockPattern& patter
 
 double NormalEquations::finish_costs(const Graph& graph, bool remember) {
   double cost = 0.0;
-  for (int32_t id = 0; id < graph.edge_end(); ++id) {
+  for (const int32_t id : pattern_->edges()) {
     cost += edge_cost_[id];
     if (remember && points_.needs_cost(id)) points_.set_cost(graph, id, edge_cost_[id]);
   }

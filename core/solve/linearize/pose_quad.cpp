@@ -11,25 +11,6 @@ namespace {
 
 static_assert(PoseQuad::kEdges % kPackLanes == 0, "a lane per edge");
 
-struct PackRobustCost {
-  Pack cost;
-  Pack weight;
-};
-
-// robust_kernel.hpp, all kernels at once.
-UNISIM_ALWAYS_INLINE PackRobustCost robust_cost(Pack delta, Pack geman_mcclure, Pack u_squared) {
-  const PackMask is_geman_mcclure = splat(0.0) < geman_mcclure;
-  const Pack delta2 = delta * delta;
-  const Pack half = 0.5 * u_squared;
-  const Pack u = square_root(u_squared);
-  const PackMask inside = u_squared <= delta2;
-  const Pack g = 1.0 / (1.0 + u_squared / delta2);
-  const Pack huber_cost = select(inside, half, delta * (u - 0.5 * delta));
-  const Pack huber_weight = select(inside, splat(1.0), delta / u);
-  return {select(is_geman_mcclure, half * g, huber_cost),
-          select(is_geman_mcclure, g * g, huber_weight)};
-}
-
 // Lower triangle and the block above it, of a symmetric matrix in column-major order.
 UNISIM_ALWAYS_INLINE PackSymmetric gather_symmetric(const double* const from[kPackLanes]) {
   constexpr int kRows = kTangentDim;
@@ -47,54 +28,58 @@ struct Targets {
   double* v[kPackLanes];
 };
 
-// Four rows of one column to each edge's block.
-UNISIM_ALWAYS_INLINE void add_rows(double* const to[kPackLanes], int offset, Pack w, Pack r0,
-                                   Pack r1, Pack r2, Pack r3) {
-  scatter_add_four(w * r0, w * r1, w * r2, w * r3, to, offset);
+UNISIM_ALWAYS_INLINE void add_vector(double* const to[kPackLanes], const PackVector& g) {
+  scatter_add_four(g.t.x, g.t.y, g.t.z, g.r.x, to, 0);
+  scatter_add_four(g.r.y, g.r.z, g.s, splat(0.0), to, 4);
 }
 
-UNISIM_ALWAYS_INLINE void add_vector(double* const to[kPackLanes], Pack w, const PackVector& g) {
-  add_rows(to, 0, w, g.t.x, g.t.y, g.t.z, g.r.x);
-  add_rows(to, 4, w, g.r.y, g.r.z, g.s, splat(0.0));
+UNISIM_ALWAYS_INLINE void subtract_vector(double* const from[kPackLanes], const PackVector& g) {
+  scatter_subtract_four(g.t.x, g.t.y, g.t.z, g.r.x, from, 0);
+  scatter_subtract_four(g.r.y, g.r.z, g.s, splat(0.0), from, 4);
 }
 
 // Rows 0 to 3 of the first three columns, rows 4 to 6 of all: the lower triangle and more.
-UNISIM_ALWAYS_INLINE void add_symmetric(Block* const blocks[kPackLanes], Pack w,
-                                        const PackSymmetric& S) {
+UNISIM_ALWAYS_INLINE void add_symmetric(Block* const blocks[kPackLanes], const PackSymmetric& S) {
   const Targets to(blocks);
   const Pack zero = splat(0.0);
-  add_rows(to.v, 0, w, S.tt.row[0].x, S.tt.row[1].x, S.tt.row[2].x, S.tr.row[0].x);
-  add_rows(to.v, 8, w, S.tt.row[0].y, S.tt.row[1].y, S.tt.row[2].y, S.tr.row[1].x);
-  add_rows(to.v, 16, w, S.tt.row[0].z, S.tt.row[1].z, S.tt.row[2].z, S.tr.row[2].x);
-  add_rows(to.v, 24, w, S.tr.row[0].x, S.tr.row[1].x, S.tr.row[2].x, S.rr.row[0].x);
-  add_rows(to.v, 4, w, S.tr.row[0].y, S.tr.row[0].z, S.ts.x, zero);
-  add_rows(to.v, 12, w, S.tr.row[1].y, S.tr.row[1].z, S.ts.y, zero);
-  add_rows(to.v, 20, w, S.tr.row[2].y, S.tr.row[2].z, S.ts.z, zero);
-  add_rows(to.v, 28, w, S.rr.row[1].x, S.rr.row[2].x, S.rs.x, zero);
-  add_rows(to.v, 36, w, S.rr.row[1].y, S.rr.row[2].y, S.rs.y, zero);
-  add_rows(to.v, 44, w, S.rr.row[1].z, S.rr.row[2].z, S.rs.z, zero);
-  add_rows(to.v, 52, w, S.rs.y, S.rs.z, S.ss, zero);
+  const Pack3* tt = S.tt.row;
+  const Pack3* tr = S.tr.row;
+  const Pack3* rr = S.rr.row;
+  scatter_add_four(tt[0].x, tt[1].x, tt[2].x, tr[0].x, to.v, 0);
+  scatter_add_four(tt[1].x, tt[1].y, tt[2].y, tr[1].x, to.v, 8);
+  scatter_add_four(tt[2].x, tt[2].y, tt[2].z, tr[2].x, to.v, 16);
+  scatter_add_four(tr[0].x, tr[1].x, tr[2].x, rr[0].x, to.v, 24);
+  scatter_add_four(tr[0].y, tr[0].z, S.ts.x, zero, to.v, 4);
+  scatter_add_four(tr[1].y, tr[1].z, S.ts.y, zero, to.v, 12);
+  scatter_add_four(tr[2].y, tr[2].z, S.ts.z, zero, to.v, 20);
+  scatter_add_four(rr[1].x, rr[2].x, S.rs.x, zero, to.v, 28);
+  scatter_add_four(rr[1].y, rr[2].y, S.rs.y, zero, to.v, 36);
+  scatter_add_four(rr[2].y, rr[2].z, S.rs.z, zero, to.v, 44);
+  scatter_add_four(S.rs.y, S.rs.z, S.ss, zero, to.v, 52);
 }
 
 // Columns t and r of [[tt, tr, ts], [rt, rr, rs], [st', sr', ss]], three each, then the last.
-UNISIM_ALWAYS_INLINE void add_columns(double* const to[kPackLanes], int first, Pack w,
-                                      const Pack33& top, const Pack33& middle, const Pack3& last) {
+UNISIM_ALWAYS_INLINE void subtract_columns(double* const from[kPackLanes], int first,
+                                           const Pack33& top, const Pack33& middle,
+                                           const Pack3& last) {
   const Pack zero = splat(0.0);
   const int at = first * kBlockRows;
-  add_rows(to, at, w, top.row[0].x, top.row[1].x, top.row[2].x, middle.row[0].x);
-  add_rows(to, at + 4, w, middle.row[1].x, middle.row[2].x, last.x, zero);
-  add_rows(to, at + 8, w, top.row[0].y, top.row[1].y, top.row[2].y, middle.row[0].y);
-  add_rows(to, at + 12, w, middle.row[1].y, middle.row[2].y, last.y, zero);
-  add_rows(to, at + 16, w, top.row[0].z, top.row[1].z, top.row[2].z, middle.row[0].z);
-  add_rows(to, at + 20, w, middle.row[1].z, middle.row[2].z, last.z, zero);
+  const Pack3* t = top.row;
+  const Pack3* m = middle.row;
+  scatter_subtract_four(t[0].x, t[1].x, t[2].x, m[0].x, from, at);
+  scatter_subtract_four(m[1].x, m[2].x, last.x, zero, from, at + 4);
+  scatter_subtract_four(t[0].y, t[1].y, t[2].y, m[0].y, from, at + 8);
+  scatter_subtract_four(m[1].y, m[2].y, last.y, zero, from, at + 12);
+  scatter_subtract_four(t[0].z, t[1].z, t[2].z, m[0].z, from, at + 16);
+  scatter_subtract_four(m[1].z, m[2].z, last.z, zero, from, at + 20);
 }
 
-UNISIM_ALWAYS_INLINE void add_block(Block* const blocks[kPackLanes], Pack w, const PackBlocks& U) {
-  const Targets to(blocks);
-  add_columns(to.v, 0, w, U.tt, U.rt, U.st);
-  add_columns(to.v, 3, w, U.tr, U.rr, U.sr);
-  add_rows(to.v, 48, w, U.ts.x, U.ts.y, U.ts.z, U.rs.x);
-  add_rows(to.v, 52, w, U.rs.y, U.rs.z, U.ss, splat(0.0));
+UNISIM_ALWAYS_INLINE void subtract_block(Block* const blocks[kPackLanes], const PackBlocks& U) {
+  const Targets from(blocks);
+  subtract_columns(from.v, 0, U.tt, U.rt, U.st);
+  subtract_columns(from.v, 3, U.tr, U.rr, U.sr);
+  scatter_subtract_four(U.ts.x, U.ts.y, U.ts.z, U.rs.x, from.v, 48);
+  scatter_subtract_four(U.rs.y, U.rs.z, U.ss, splat(0.0), from.v, 52);
 }
 
 UNISIM_ALWAYS_INLINE PackBlocks transposed(const PackBlocks& U) {
@@ -114,15 +99,17 @@ UNISIM_ALWAYS_INLINE void normal_of(const PoseQuad& quad, int first, PackNormal*
   const PackSim3 A = gather_sim3(quad.A + first);
   const PackSim3 B = gather_sim3(quad.B + first);
   const PackSim3 P = gather_sim3(quad.P + first);
+  const PackKernel kernel = {load(quad.weight + first), load(quad.delta + first),
+                             load(quad.geman_mcclure + first)};
   if constexpr (kShape == QuadShape::kOneMeasurement) {
-    relative_pose_normal(A, B, P, nullptr, out);
+    relative_pose_normal(A, B, P, nullptr, kernel, out);
   } else if constexpr (kShape == QuadShape::kTwoMeasurements) {
     const PackSim3 Q = gather_sim3(quad.Q + first);
-    relative_pose_normal(A, B, P, &Q, out);
+    relative_pose_normal(A, B, P, &Q, kernel, out);
   } else if constexpr (kShape == QuadShape::kChain) {
-    chain_normal(A, B, P, gather_symmetric(quad.Lambda + first), out);
+    chain_normal(A, B, P, gather_symmetric(quad.Lambda + first), kernel, out);
   } else {
-    rigid_normal(A, B, P, gather_symmetric(quad.Lambda + first), out);
+    rigid_normal(A, B, P, gather_symmetric(quad.Lambda + first), kernel, out);
   }
 }
 
@@ -132,26 +119,23 @@ template <QuadShape kShape, bool kGradientOnly>
 void add(const PoseQuad& quad) {
   constexpr int kPacks = PoseQuad::kEdges / kPackLanes;
   PackNormal normal[kPacks];
-  Pack w[kPacks];
   for (int i = 0; i < kPacks; ++i) {
     const int first = i * kPackLanes;
     normal_of<kShape>(quad, first, &normal[i]);
-    const Pack weight = load(quad.weight + first);
-    const PackRobustCost robust = robust_cost(
-        load(quad.delta + first), load(quad.geman_mcclure + first), weight * normal[i].u_squared);
-    w[i] = weight * robust.weight;
-    for (int lane = 0; lane < kPackLanes; ++lane) *quad.cost[first + lane] = robust.cost[lane];
+    for (int lane = 0; lane < kPackLanes; ++lane) {
+      *quad.cost[first + lane] = normal[i].cost[lane];
+    }
   }
   for (int i = 0; i < kPacks; ++i) {
-    if constexpr (!kGradientOnly) add_symmetric(quad.H_aa + i * kPackLanes, w[i], normal[i].H_aa);
-    add_vector(quad.g_a + i * kPackLanes, -w[i], normal[i].minus_g_a);
+    if constexpr (!kGradientOnly) add_symmetric(quad.H_aa + i * kPackLanes, normal[i].H_aa);
+    subtract_vector(quad.g_a + i * kPackLanes, normal[i].minus_g_a);
   }
   for (int i = 0; i < kPacks; ++i) {
-    add_vector(quad.g_b + i * kPackLanes, w[i], normal[i].g_b);
+    add_vector(quad.g_b + i * kPackLanes, normal[i].g_b);
     if constexpr (kGradientOnly) continue;
-    add_symmetric(quad.H_bb + i * kPackLanes, w[i], normal[i].H_bb);
+    add_symmetric(quad.H_bb + i * kPackLanes, normal[i].H_bb);
     const PackBlocks& U = normal[i].minus_H_ba;
-    add_block(quad.H_ab + i * kPackLanes, -w[i], quad.a_is_later ? transposed(U) : U);
+    subtract_block(quad.H_ab + i * kPackLanes, quad.a_is_later ? transposed(U) : U);
   }
 }
 

@@ -45,6 +45,7 @@ BlockPattern::BlockPattern(Arena& arena, const SolverCapacity& capacity)
       column_of_node_(arena.take<int32_t>(capacity.nodes)),
       node_of_column_(arena.take<int32_t>(capacity.nodes)),
       edge_slot_(arena.take<EdgeSlot>(capacity.edges)),
+      edges_(arena.take<int32_t>(capacity.edges)),
       column_start_(arena.take<int32_t>(capacity.nodes + 1)),
       row_(arena.take<int32_t>(capacity.pairs)),
       pair_a_(arena.take<int32_t>(capacity.pairs)),
@@ -267,6 +268,33 @@ void BlockPattern::place_pairs(const Graph& graph) {
     if (pair < 0) continue;
     const Edge& edge = graph.edge(id);
     edge_slot_[id] = {slot_of_pair[pair], column_of_node_[edge.a] > column_of_node_[edge.b]};
+  }
+  sort_edges(graph);
+}
+
+// In this order the blocks of H are written one behind the other.
+void BlockPattern::sort_edges(const Graph& graph) {
+  const Span<int32_t> offset = work_.subspan(0, columns_ + 2);
+  const auto first_column = [&](const Edge& edge) {
+    const int32_t a = column_of_node_[edge.a];
+    const int32_t b = column_of_node_[edge.b];
+    const int32_t low = std::min(a, b);
+    if (low >= 0) return low;
+    const int32_t high = std::max(a, b);
+    return high >= 0 ? high : columns_;
+  };
+  offset.fill(0);
+  edge_count_ = 0;
+  for (int32_t id = 0; id < graph.edge_end(); ++id) {
+    const Edge& edge = graph.edge(id);
+    if (!edge.alive) continue;
+    ++offset[first_column(edge) + 1];
+    ++edge_count_;
+  }
+  to_offsets(offset);
+  for (int32_t id = 0; id < graph.edge_end(); ++id) {
+    const Edge& edge = graph.edge(id);
+    if (edge.alive) edges_[offset[first_column(edge)]++] = id;
   }
 }
 

@@ -58,6 +58,9 @@ class BlockPattern {
   int32_t column_of_node(int32_t node) const { return column_of_node_[node]; }
   int32_t node_of_column(int32_t column) const { return node_of_column_[column]; }
   EdgeSlot edge_slot(int32_t edge) const { return edge_slot_[edge]; }
+  /// The edges, those of the first column first, each with the first of its columns; behind them
+  /// those between fixed nodes.
+  Span<const int32_t> edges() const { return edges_.subspan(0, edge_count_); }
   /// columns() + 1 offsets into rows().
   Span<const int32_t> column_start() const { return {column_start_.data(), columns_ + 1}; }
   /// pairs() row indices.
@@ -71,15 +74,18 @@ class BlockPattern {
   Status collect_pairs(const Graph& graph);
   void order_columns();
   void place_pairs(const Graph& graph);
+  void sort_edges(const Graph& graph);
 
   SolverCapacity capacity_;
   bool holds_skeleton_ = false;
   int32_t columns_ = 0;
   int32_t first_late_ = 0;  // column, before ordering
   int32_t pairs_ = 0;
+  int32_t edge_count_ = 0;
   Span<int32_t> column_of_node_;
   Span<int32_t> node_of_column_;
   Span<EdgeSlot> edge_slot_;
+  Span<int32_t> edges_;
   Span<int32_t> column_start_;
   Span<int32_t> row_;
   Span<int32_t> pair_a_;  // column numbers of each pair, smaller one first, before ordering

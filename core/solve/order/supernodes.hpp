@@ -19,6 +19,8 @@ namespace unisim {
 ///
 /// Once factorised, the diagonal blocks hold L_jj^-1 by rows (block_kernels.hpp).
 struct Supernodes {
+  int32_t block_count(int32_t s) const;
+
   int32_t count = 0;
   const int32_t* first_column = nullptr;  ///< count + 1
   const int32_t* of_column = nullptr;     ///< columns
@@ -29,6 +31,11 @@ struct Supernodes {
 
 /// Blocks of a triangle of w block rows: where the rows below it begin.
 UNISIM_ALWAYS_INLINE int32_t triangle(int32_t w) { return w * (w + 1) / 2; }
+
+inline int32_t Supernodes::block_count(int32_t s) const {
+  const int32_t width = first_column[s + 1] - first_column[s];
+  return triangle(width) + width * (row_start[s + 1] - row_start[s]);
+}
 
 /// Lists that a left-looking factorisation threads through the supernodes.
 struct SupernodeLists {
