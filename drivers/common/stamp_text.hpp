@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Time stamps as text.
+// Time stamps as text and in seconds.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +18,13 @@ inline std::string stamp_text(int64_t time_ns) {
   return format("%s%llu.%09llu", negative ? "-" : "",
                 static_cast<unsigned long long>(size / kSecond),
                 static_cast<unsigned long long>(size % kSecond));
+}
+
+/// The double nearest to it: in seconds, as a list of times has it.
+inline double stamp_seconds(int64_t time_ns) {
+  constexpr int64_t kSecond = 1000000000;
+  return static_cast<double>(time_ns / kSecond) +
+         static_cast<double>(time_ns % kSecond) / static_cast<double>(kSecond);
 }
 
 }  // namespace unisim::drivers

@@ -7,12 +7,11 @@
 namespace unisim::pipeline {
 
 void LivePoses::give_early(const unisim_frame& frame, int32_t id) {
-  unisim_frame_pose between{};
-  unisim_pose held{};
-  if (!pose_of_frame(&between, &held)) return;
+  unisim_frame_pose place{};
+  LivePose pose{};
+  if (!pose_of_frame(frame, id, &place, &pose)) return;
   early_ = id;
-  give({frame.timestamp_ns, compose(held.T_world_kf, between.T_kf_frame), id, held.segment,
-        metre(held.segment)});
+  give(pose);
 }
 
 void LivePoses::give_keyframes(bool ending) {
@@ -31,26 +30,32 @@ void LivePoses::give_keyframes(bool ending) {
 }
 
 void LivePoses::give_between(const unisim_frame& frame) {
-  unisim_frame_pose between{};
-  unisim_pose held{};
-  if (!pose_of_frame(&between, &held)) return;
+  unisim_frame_pose place{};
+  LivePose pose{};
+  if (!pose_of_frame(frame, -1, &place, &pose)) return;
   for (Listener* listener : *parts_.listeners) {
-    listener->on_between_pose({frame.timestamp_ns, between.keyframe_id, between.T_kf_frame});
+    listener->on_between_pose({frame.timestamp_ns, place.keyframe_id, place.T_kf_frame});
   }
-  give({frame.timestamp_ns, compose(held.T_world_kf, between.T_kf_frame), -1, held.segment,
-        metre(held.segment)});
+  give(pose);
 }
 
 void LivePoses::give_located(const LocatedFrame& frame, int32_t segment) {
   give({frame.timestamp_ns, frame.T_world_cam, -1, segment, frame.metre});
 }
 
-/// Pose of the frame observed last, and of the keyframe that holds it. @return false: none
-bool LivePoses::pose_of_frame(unisim_frame_pose* between, unisim_pose* held) {
+/// Of the frame observed last, which is keyframe `id` or none (-1): its place under the keyframe
+/// that holds it, and its pose. @return false: not known
+bool LivePoses::pose_of_frame(const unisim_frame& frame, int32_t id, unisim_frame_pose* place,
+                              LivePose* pose) {
   unisim_predictor* predictor = parts_.predictor;
   if (predictor->frame_pose == nullptr) return false;
-  if (predictor->frame_pose(predictor, between) != UNISIM_PREDICTION_OK) return false;
-  return parts_.session->get_pose(between->keyframe_id, held) == UNISIM_OK && held->confidence > 0;
+  if (predictor->frame_pose(predictor, place) != UNISIM_PREDICTION_OK) return false;
+  unisim_pose holder{};
+  if (parts_.session->get_pose(place->keyframe_id, &holder) != UNISIM_OK) return false;
+  if (holder.confidence <= 0) return false;
+  *pose = {frame.timestamp_ns, compose(holder.T_world_kf, place->T_kf_frame), id, holder.segment,
+           metre(holder.segment)};
+  return true;
 }
 
 void LivePoses::give(const LivePose& pose) {

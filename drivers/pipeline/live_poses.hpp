@@ -47,7 +47,8 @@ class LivePoses {
   bool any() const { return any_; }
 
  private:
-  bool pose_of_frame(unisim_frame_pose* between, unisim_pose* held);
+  bool pose_of_frame(const unisim_frame& frame, int32_t id, unisim_frame_pose* place,
+                     LivePose* pose);
   Metre metre(int32_t segment) { return parts_.map->metres().of(segment); }
   void give(const LivePose& pose);
 

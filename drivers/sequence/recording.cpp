@@ -13,12 +13,15 @@
 namespace unisim::sequence {
 
 int64_t time_at_rate(int64_t number, double fps) {
-  const long double ns = static_cast<long double>(number) * 1e9L / static_cast<long double>(fps);
-  if (!(std::abs(ns) <= kMaxTimeNs)) {
+  const auto frames = static_cast<double>(number);
+  if (!(std::abs(frames / fps) <= kMaxTimeNs / 1e9)) {
     throw InputError(drivers::format("frame %lld at %g frames/s is at no time: give a higher rate",
                                      static_cast<long long>(number), fps));
   }
-  return std::llround(ns);
+  // Whole seconds apart: together they would need more digits than a double has.
+  const double rest = std::fmod(frames, fps);
+  const int64_t seconds = std::llround((frames - rest) / fps);
+  return seconds * 1000000000 + std::llround(rest * 1e9 / fps);
 }
 
 void check_begin(const std::string& path, int64_t count, int64_t from) {

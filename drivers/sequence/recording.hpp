@@ -65,9 +65,10 @@ extern const Format kTum, kSevenScenes, kEuroc, kKitti, kReplica, kImageList, kL
 void check_begin(const std::string& path, int64_t count, int64_t from);
 
 /// Times beyond +-292 years do not fit int64_t nanoseconds.
-inline constexpr long double kMaxTimeNs = 9.2e18L;
+inline constexpr double kMaxTimeNs = 9.2e18;
 
-/// Time of frame `number` at a constant rate. @throws InputError beyond kMaxTimeNs
+/// Time of frame `number` at a constant rate, to the nearest nanosecond. @throws InputError beyond
+/// kMaxTimeNs
 int64_t time_at_rate(int64_t number, double fps);
 
 /// Ground truth from a pose file; an unreadable one leaves it empty, which is noted.

@@ -55,6 +55,11 @@ TEST_CASE("a time stamp as text is exact to the nanosecond at any time") {
   CHECK(stamp_text(-1) == "-0.000000001");
   CHECK(stamp_text(INT64_MAX) == "9223372036.854775807");
   CHECK(stamp_text(INT64_MIN) == "-9223372036.854775808");
+  using unisim::drivers::stamp_seconds;
+  CHECK(stamp_seconds(1305031102175304001) == 1305031102.175304001);
+  CHECK(stamp_seconds(-1305031102175304001) == -1305031102.175304001);
+  CHECK(stamp_seconds(900000000033333333) == 900000000.033333333);
+  CHECK(stamp_seconds(-1) == -1e-9);
 }
 
 TEST_CASE("a formatted line is as long as what goes into it") {

@@ -110,6 +110,13 @@ TEST_CASE("a rate that puts a frame beyond all times is refused") {
   REQUIRE_THROWS_AS(time_at_rate(9000000000000000000, 1.0), InputError);
 }
 
+TEST_CASE("a frame far on has its time to the nanosecond") {
+  CHECK(time_at_rate(27000000001, 30.0) == 900000000033333333);
+  CHECK(time_at_rate(-27000000001, 30.0) == -900000000033333333);
+  CHECK(time_at_rate(9007199254740991, 1e9) == 9007199254740991);
+  CHECK(time_at_rate(2997003, 29.97) == 100000100100100);
+}
+
 TEST_CASE("natural order puts 2 before 10") {
   REQUIRE(natural_less("img2.png", "img10.png"));
   REQUIRE_FALSE(natural_less("img10.png", "img2.png"));

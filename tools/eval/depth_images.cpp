@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "drivers/common/stamp_text.hpp"
 #include "drivers/sequence/folder.hpp"
 #include "drivers/sequence/frame_list.hpp"
 #include "drivers/sequence/sequence.h"
@@ -17,11 +18,6 @@ using Source = std::unique_ptr<unisim_source, void (*)(unisim_source*)>;
 constexpr double kTumUnits = 5000.0;
 constexpr double kSevenScenesUnits = 1000.0;
 constexpr double kReplicaUnits = 6553.5;
-
-// As make_trajectory() has them: the times of poses and images are compared.
-double seconds(int64_t time_ns) {
-  return static_cast<double>(static_cast<long double>(time_ns) / 1e9L);
-}
 
 Source open(const DepthRequest& request) {
   unisim_sequence_options options{};
@@ -57,7 +53,7 @@ std::vector<DepthImage> listed_images(const std::string& folder, std::vector<std
   *notes = recording.notes;
   std::vector<DepthImage> images;
   for (const sequence::FrameEntry& frame : recording.frames)
-    images.push_back({frame.path, seconds(frame.timestamp_ns)});
+    images.push_back({frame.path, drivers::stamp_seconds(frame.timestamp_ns)});
   return images;
 }
 
@@ -83,7 +79,7 @@ std::vector<DepthImage> images_beside(unisim_source* source, const std::string& 
     if (code != UNISIM_FRAME_OK) continue;
     const std::string path = depth_beside(unisim_sequence_frame_path(source), format);
     if (!path.empty() && sequence::is_file(path))
-      images.push_back({path, seconds(frame.timestamp_ns)});
+      images.push_back({path, drivers::stamp_seconds(frame.timestamp_ns)});
   }
   return images;
 }

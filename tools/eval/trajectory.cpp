@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "drivers/common/stamp_text.hpp"
 #include "drivers/sequence/pose_file.hpp"
 
 namespace unisim::eval {
@@ -52,9 +53,8 @@ Trajectory make_trajectory(const std::string& name, const unisim_stamped_pose* p
   for (int64_t k = 0; k < count; ++k) {
     const unisim_sim3& T = poses[k].T_world_cam;
     const Eigen::Quaterniond q(T.q[3], T.q[0], T.q[1], T.q[2]);
-    const auto time_s = static_cast<long double>(poses[k].timestamp_ns) / 1e9L;
-    trajectory.poses.push_back(
-        {static_cast<double>(time_s), q.normalized().toRotationMatrix(), Eigen::Vector3d(T.t)});
+    trajectory.poses.push_back({drivers::stamp_seconds(poses[k].timestamp_ns),
+                                q.normalized().toRotationMatrix(), Eigen::Vector3d(T.t)});
   }
   put_in_order(&trajectory);
   return trajectory;

@@ -48,7 +48,7 @@ void SpotTurns::see_keyframe(const State& state, int32_t id) {
   if (before < 0 || open_.size() == open_.capacity()) return;
   const double moved = (now.pose.center() - state.map.keyframe(before).pose.center()).norm();
   if (moved >= kMostMoved * state.median_depth) return;
-  if (carriers(state, now, before) < kFewCarriers) open_.push_back({before, id});
+  if (carriers(state, now, before) < kFewCarriers) open_.push_back({before, id, 0});
 }
 
 bool SpotTurns::guessed(int32_t first, int32_t last) const {
@@ -57,14 +57,18 @@ bool SpotTurns::guessed(int32_t first, int32_t last) const {
 }
 
 void SpotTurns::settle(const State& state) {
-  const auto settled = [&](const Turn& turn) {
-    if (!state.map.holds(turn.after)) return true;
-    int count = 0;
-    for (int32_t slot = 0; slot < state.map.landmark_capacity(); ++slot) {
-      const Landmark& mark = state.map.landmark(slot);
-      if (measured(mark, turn.before) && mark.last.keyframe >= turn.after) ++count;
+  if (open_.empty()) return;
+  for (Turn& turn : open_) turn.carriers = 0;
+  for (int32_t slot = 0; slot < state.map.landmark_capacity(); ++slot) {
+    const Landmark& mark = state.map.landmark(slot);
+    if (mark.last.keyframe < open_.front().after) continue;
+    for (Turn& turn : open_) {
+      if (mark.last.keyframe < turn.after) break;
+      turn.carriers += measured(mark, turn.before) ? 1 : 0;
     }
-    return count >= kEnoughCarriers;
+  }
+  const auto settled = [&](const Turn& turn) {
+    return !state.map.holds(turn.after) || turn.carriers >= kEnoughCarriers;
   };
   open_.erase(std::remove_if(open_.begin(), open_.end(), settled), open_.end());
 }

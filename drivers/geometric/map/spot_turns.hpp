@@ -31,6 +31,7 @@ class SpotTurns {
   struct Turn {
     int32_t before;  ///< last keyframe that looked elsewhere
     int32_t after;
+    int32_t carriers;  ///< landmarks from before that are seen since; of the last settle()
   };
 
   std::vector<Turn> open_;  // ascending

@@ -54,22 +54,30 @@ void Feed::loop() {
     lock.unlock();
     const Clock::time_point now = Clock::now();
     if (fresh) newest = now;
-    const std::chrono::duration<double> silent = now - newest;
-    const bool status_due = now >= next_status;
-    if (status_due) next_status = now + kStatusPeriod;
-    tell(view, fresh, status_due ? silent.count() : -1.0);
+    if (fresh) tell(view);
+    if (now >= next_status) {
+      next_status = now + kStatusPeriod;
+      const std::chrono::duration<double> silent = now - newest;
+      tell_status(view, silent.count());
+    }
     lock.lock();
   }
 }
 
-/// Where there is no memory for an event the page goes without it: tracking goes on.
-void Feed::tell(const View& view, bool fresh, double silent_s) {
+// Where there is no memory for an event the page goes without it: tracking goes on.
+void Feed::tell(const View& view) {
   try {
-    if (fresh && view.has_map) publish(EventKind::kMap, text_.map(view));
-    if (fresh && view.has_image && watched()) publish(EventKind::kFrame, text_.frame(view));
-    if (silent_s >= 0.0) publish(EventKind::kStatus, text_.status(view, silent_s));
+    if (view.has_map) publish(EventKind::kMap, text_.map(view));
+    if (view.has_image && watched()) publish(EventKind::kFrame, text_.frame(view));
   } catch (const std::bad_alloc&) {
   } catch (const cv::Exception&) {
+  }
+}
+
+void Feed::tell_status(const View& view, double silent_s) {
+  try {
+    publish(EventKind::kStatus, text_.status(view, silent_s));
+  } catch (const std::bad_alloc&) {
   }
 }
 

@@ -62,8 +62,9 @@ class Feed {
   };
 
   void loop();
-  /// @param silent_s seconds since the newest view, < 0: no status is due
-  void tell(const View& view, bool fresh, double silent_s);
+  void tell(const View& view);
+  /// @param silent_s seconds since the newest view
+  void tell_status(const View& view, double silent_s);
   void publish(EventKind kind, std::string text);
 
   std::atomic<int> watchers_{0};
