@@ -184,7 +184,16 @@ class Session {
 
   // ---- optimisation (session/optimize.cpp)
   Status optimize(int32_t max_iterations, OptimizeReport* report);
+
+  // ---- covariances (session/covariance.cpp)
+  /// @return kOk; kRetired; kInvalidArgument for an unknown id; kNotReady when the graph has
+  /// changed
+  ///         since the last optimisation or the pose is held; kNumerical
   Status covariance(int32_t keyframe, Mat7* covariance);
+  /// Joint covariance of the poses of `count` keyframes from `first` on, times a vector; seven
+  /// numbers a keyframe, those without a pose of their own take no part.
+  /// @return as covariance()
+  Status multiply_covariance(int32_t first, int32_t count, const double* weights, double* products);
 
   // ---- saving and loading (session/snapshot.cpp)
   /// The map through a callback. It stays as it is; only the solver starts anew at the next
@@ -282,6 +291,11 @@ class Session {
   void visit_session(Archive* archive);
   bool counts_hold() const;
   bool depth_holds() const;
+
+  // session/covariance.cpp
+  int32_t carrier(const Keyframe& keyframe) const;
+  Mat7 carried(const Keyframe& keyframe) const;
+  double told_variance() const;
 
   // session/optimize.cpp
   void describe_changes(uint64_t revision_before, OptimizeReport* report);

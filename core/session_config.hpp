@@ -52,6 +52,7 @@ struct SessionConfig {
   double sigma_reference = 0.001;
   double sigma_gate = 0.005;
   double sigma_gate_loop = 0.002;
+  double sigma_factor = 4.0;
   double scatter_gate = 0.13;
   int32_t lost_after = 3;
   int32_t max_iterations = 10;

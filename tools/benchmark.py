@@ -143,16 +143,30 @@ def figures(truth, out, focal_true):
     return row
 
 
+def belief(arguments, truth, out):
+    """How far the run's own standard deviations can be believed."""
+    result = call(arguments, "unisim-eval", "consistency", truth, out, "--json")
+    if result.returncode != 0:
+        return {}
+    found = json.loads(result.stdout)
+    row = {"good_far_off": found["good_far_off"]}
+    if found["position"]["poses"]:
+        row |= {"beyond_3_sigma": found["position"]["beyond_3_sigma"], "sigma_ratio": found["position"]["median"]}
+    return row
+
+
 def replay_options(arguments, recording, condition, offset):
-    """The sequence and its frames; the ground truth; with the poses of that file."""
+    """The sequence and its frames; the file of its ground truth, None without one; the poses in that."""
     if condition.make is None:
         last = ["--to", arguments.last] if arguments.last >= 0 else []
-        given = ["--ground-truth", recording.own_truth()] if len(recording.truth) else []
+        file = recording.own_truth() if len(recording.truth) else None
+        given = ["--ground-truth", file] if file else []
         return [recording.path, "--format", arguments.format, "--from", arguments.first + offset, *last,
-                *given], recording.truth
+                *given], file, recording.truth
     folder = recording.degraded(condition)
     truth = folder / "groundtruth.txt"
-    return [folder, "--format", "tum", "--from", offset], read_poses(truth) if truth.is_file() else recording.truth[:0]
+    options = [folder, "--format", "tum", "--from", offset]
+    return (options, truth, read_poses(truth)) if truth.is_file() else (options, None, recording.truth[:0])
 
 
 def measure(arguments, recording, name, out):
@@ -164,11 +178,12 @@ def measure(arguments, recording, name, out):
     runs, problem = [], ""
     for offset in arguments.first_frames:
         target = out / "runs" / f"{recording.name}-{name}-{offset}"
-        options, truth = replay_options(arguments, recording, condition, offset)
+        options, file, truth = replay_options(arguments, recording, condition, offset)
         result = call(arguments, "unisim-replay", *options, "--predictor", arguments.predictor, "--out", target,
                       "--force", "--quiet", "--no-report", *condition.given(focal), *arguments.extra)
         if result.returncode == 0:
             runs.append(figures(truth, target, focal if recording.focal_known else 0))
+            runs[-1] |= belief(arguments, file, target) if file else {}
         else:
             problem = last_line(result)
     row = {"runs": len(runs)}
@@ -179,6 +194,10 @@ def measure(arguments, recording, name, out):
     errors = [run["ate_m"] for run in runs if "ate_m" in run]
     if len(errors) > 1:
         row["ate_worst_m"] = max(errors)
+    for key in ("beyond_3_sigma", "good_far_off"):  # no run may hide behind others
+        values = [run[key] for run in runs if key in run]
+        if values:
+            row[key] = max(values)
     if problem:
         row["problem"] = f"{len(arguments.first_frames) - len(runs)} of {len(arguments.first_frames)} runs: {problem}"
     return row

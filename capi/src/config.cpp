@@ -32,6 +32,7 @@ unisim_config defaults() {
   config.lost_after = 3;
   config.max_iterations = 10;
   config.skeleton_capacity = 128;
+  config.sigma_factor = 4.0;
   return config;
 }
 
@@ -55,7 +56,8 @@ bool numbers_in_range(const unisim_config& c) {
   return positive(c.huber_delta) && positive(c.loop_delta) &&
          within(c.live_scale_exponent, 0.0, 1.0) && within(c.confidence_drop, 0.0, 0.9) &&
          positive(c.sigma_reference) && positive(c.sigma_gate) && positive(c.sigma_gate_loop) &&
-         positive(c.scatter_gate) && std::isfinite(c.loop_gate) && c.loop_gate >= 0.0;
+         positive(c.scatter_gate) && std::isfinite(c.loop_gate) && c.loop_gate >= 0.0 &&
+         std::isfinite(c.sigma_factor) && c.sigma_factor >= 0.0;
 }
 
 /// Weights by the presets' order; 0 stands for the preset's. false: negative or not finite.
@@ -106,6 +108,7 @@ unisim_status read_config(const unisim_config* from, SessionConfig* to) {
   to->max_iterations = c.max_iterations;
   to->window_submaps = c.window_submaps;
   to->skeleton_capacity = c.skeleton_capacity;
+  to->sigma_factor = c.sigma_factor;
   to->log = {c.log, c.log_user};
   return UNISIM_OK;
 }

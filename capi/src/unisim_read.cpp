@@ -109,6 +109,14 @@ unisim_status unisim_get_covariance(unisim_session* session, int32_t keyframe_id
   return to_c(done);
 }
 
+unisim_status unisim_multiply_covariance(unisim_session* session, int32_t first_keyframe,
+                                         int32_t count, const double* weights, double* products) {
+  const unisim_status status = check_session(session);
+  if (status != UNISIM_OK) return status;
+  if (weights == nullptr || products == nullptr) return UNISIM_ERR_INVALID_ARGUMENT;
+  return to_c(core(session)->multiply_covariance(first_keyframe, count, weights, products));
+}
+
 unisim_status unisim_get_submap(const unisim_session* session, int32_t submap_id,
                                 unisim_submap_info* info) {
   unisim_status status = check_session(session);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Optimisation of the graph and what it changed; covariances.
+// Optimisation of the graph and what it changed.
 #include <algorithm>
 #include <cmath>
 
@@ -85,8 +85,9 @@ Status Session::optimize(int32_t max_iterations, OptimizeReport* report) {
   if (!holds(gauge_.apply(&map_.graph))) return Status::kInternal;
   const int32_t freedom = degrees_of_freedom(map_.graph);
   const double cost = report->lm.final_cost - metric_cost(map_.graph);
-  variance_factor_ = freedom > 0 ? 2.0 * cost / freedom : 1.0;
-  if (freedom >= kTellingFreedom) map_.metric.set_unit_variance(variance_factor_);
+  const double variance = freedom > 0 ? 2.0 * cost / freedom : 1.0;
+  if (freedom >= kTellingFreedom) map_.metric.set_unit_variance(variance);
+  variance_factor_ = std::max(variance, told_variance());
   solved_revision_ = map_.graph.revision();
   distances_.note_solved();
   measure_new_metres();
@@ -136,28 +137,6 @@ void Session::describe_bad_node(OptimizeReport* report) const {
     if (submap.place.own_node && submap.place.node == report->lm.bad_node)
       report->bad_submap = submap.id;
   }
-}
-
-Status Session::covariance(int32_t keyframe, Mat7* covariance) {
-  if (map_.keyframes.gone(keyframe)) return Status::kRetired;
-  if (!map_.keyframes.has(keyframe)) return Status::kInvalidArgument;
-  const Keyframe& asked = map_.keyframes[keyframe];
-  const int32_t node = asked.retired() ? map_.submaps[asked.owner].place.node : asked.node;
-  if (node < 0 || map_.graph.revision() != solved_revision_) return Status::kNotReady;
-  if (map_.graph.node(node).fixed) {
-    covariance->setZero();
-    return Status::kOk;
-  }
-  const Status status = solver_.marginal_covariance(map_.graph, node, covariance);
-  if (!is_ok(status)) return status;
-  if (asked.retired()) {
-    // T = S X and S exp(d) X = S X exp(Ad(X^-1) d).
-    const Mat7 Ad =
-        sim3_adjoint((map_.submaps[asked.owner].place.T_node_submap * asked.T_owner_kf).inverse());
-    *covariance = (Ad * *covariance * Ad.transpose()).eval();
-  }
-  *covariance *= variance_factor_;
-  return status;
 }
 
 }  // namespace unisim

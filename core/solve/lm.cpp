@@ -307,19 +307,37 @@ void LevenbergMarquardt::restore_poses(Graph* graph, double least_move) const {
   }
 }
 
+Status LevenbergMarquardt::factorize_undamped(const Graph& graph) {
+  hold_skeleton(false);
+  Status status = prepare(graph, LmObserver());
+  if (!is_ok(status)) return status;
+  undamped_revision_ = 0;
+  linearize_all(graph);
+  status = factorize(0.0);
+  if (!is_ok(status)) return status;
+  undamped_revision_ = graph.revision();
+  inverted_ = false;
+  return Status::kOk;
+}
+
 Status LevenbergMarquardt::marginal_covariance(const Graph& graph, int32_t node, Mat7* covariance) {
   if (!graph.has_node(node) || graph.node(node).fixed) return Status::kInvalidArgument;
   if (undamped_revision_ != graph.revision()) {
-    hold_skeleton(false);
-    Status status = prepare(graph, LmObserver());
+    const Status status = factorize_undamped(graph);
     if (!is_ok(status)) return status;
-    undamped_revision_ = 0;
-    linearize_all(graph);
-    status = factorize(0.0);
-    if (!is_ok(status)) return status;
-    undamped_revision_ = graph.revision();
   }
+  inverted_ = true;
   cholesky_.inverse_block(pattern_.column_of_node(node), step_, covariance);
+  return Status::kOk;
+}
+
+Status LevenbergMarquardt::begin_product(const Graph& graph, Span<BlockVector>* x) {
+  if (undamped_revision_ != graph.revision() || inverted_) {
+    const Status status = factorize_undamped(graph);
+    if (!is_ok(status)) return status;
+  }
+  *x = step_.subspan(0, pattern_.columns());
+  x->fill(BlockVector());
   return Status::kOk;
 }
 

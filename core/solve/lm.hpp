@@ -72,7 +72,14 @@ class LevenbergMarquardt {
   ///         kCapacity and kNotReady as optimize()
   Status marginal_covariance(const Graph& graph, int32_t node, Mat7* covariance);
 
-  /// The analysed structure; valid after a successful call of the two above.
+  /// x := H^-1 x at the present poses, in two steps: begin_product() factorises H when the graph
+  /// has changed since and gives x, zero, one vector for each column of pattern(); the caller fills
+  /// it, finish_product() turns it into the product.
+  /// @return as marginal_covariance()
+  Status begin_product(const Graph& graph, Span<BlockVector>* x);
+  void finish_product(Span<BlockVector> x) const { cholesky_.solve(x); }
+
+  /// The analysed structure; valid after a successful call of those above.
   const BlockPattern& pattern() const { return pattern_; }
 
   /// The next graph is another one: nothing of the last order and factor is kept.
@@ -93,6 +100,7 @@ class LevenbergMarquardt {
   double fill_per_column() const;
   LmStop iterate(Graph* graph, const LmOptions& options, LmReport* report);
   Status factorize(double lambda);
+  Status factorize_undamped(const Graph& graph);
   bool find_step(const LmOptions& options, const LmReport& report);
   double predicted_decrease(double lambda) const;
   bool apply_step(Graph* graph, double least_move);
@@ -113,6 +121,7 @@ class LevenbergMarquardt {
   uint64_t seen_revision_ = 0;       // of the graph, up to which its changes have been taken in
   uint64_t structure_revision_ = 0;  // of the analysed graph
   uint64_t undamped_revision_ = 0;   // of the graph whose H the undamped factor holds
+  bool inverted_ = false;            // part of that factor has been turned into the inverse
 };
 
 }  // namespace unisim

@@ -23,7 +23,7 @@ AT(unisim_depth_map, confidence, 8);
 AT(unisim_depth_map, width, 16);
 AT(unisim_depth_map, height, 20);
 
-SIZE(unisim_config, 184);
+SIZE(unisim_config, 192);
 AT(unisim_config, struct_size, 0);
 AT(unisim_config, preset, 4);
 AT(unisim_config, window_size, 8);
@@ -54,6 +54,7 @@ AT(unisim_config, log_user, 160);
 AT(unisim_config, window_submaps, 168);
 AT(unisim_config, skeleton_capacity, 172);
 AT(unisim_config, loop_gate, 176);
+AT(unisim_config, sigma_factor, 184);
 
 SIZE(unisim_load_report, 72);
 AT(unisim_load_report, struct_size, 0);

@@ -37,6 +37,10 @@ class Program(unittest.TestCase):
             self.assertEqual(first.stdout, (out / "table.md").read_text())
             table = json.loads((out / "kept.json").read_text())
             self.assertEqual(len(table["rows"]), 2)
+            for row in table["rows"]:
+                self.assertGreater(row["sigma_ratio"], 0)
+                self.assertLessEqual(row["beyond_3_sigma"], 1)
+                self.assertEqual(row["good_far_off"], 0)
             for name in ("program", "frames", "alignment", "ground truth", "machine", "first frames"):
                 self.assertIn(name, table["protocol"])
             again = run(*made, "--compare", out / "kept.json")
@@ -113,6 +117,9 @@ class Comparison(unittest.TestCase):
         flagged = comparison_text({"rows": [worse]}, {"rows": [row]}, 0.1).splitlines()[-1]
         self.assertIn("1.20", flagged)
         self.assertTrue(flagged.endswith("| ate_m |"), flagged)
+        believed, wrong = dict(row, good_far_off=0), dict(row, good_far_off=2)
+        self.assertTrue(comparison_text({"rows": [wrong]}, {"rows": [believed]}, 0.1).endswith("| good_far_off |\n"))
+        self.assertTrue(comparison_text({"rows": [believed]}, {"rows": [believed]}, 0.1).endswith("|  |\n"))
         lost = {key: value for key, value in row.items() if key != "ate_m"}
         self.assertIn("ate_m gone", comparison_text({"rows": [lost]}, {"rows": [row]}, 0.1))
         self.assertTrue(comparison_text({"rows": [row]}, {"rows": [row]}, 0.1).endswith("|  |\n"))

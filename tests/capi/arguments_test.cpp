@@ -259,6 +259,7 @@ TEST_CASE("configurations out of range are refused") {
   SECTION("sigma_reference") { config.sigma_reference = 0.0; }
   SECTION("sigma_gate") { config.sigma_gate = -1.0; }
   SECTION("sigma_gate_loop") { config.sigma_gate_loop = kNan; }
+  SECTION("sigma_factor") { config.sigma_factor = -1.0; }
   SECTION("scatter_gate") { config.scatter_gate = 0.0; }
   SECTION("lost_after") { config.lost_after = 0; }
   SECTION("max_iterations") { config.max_iterations = 0; }

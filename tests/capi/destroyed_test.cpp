@@ -64,6 +64,8 @@ std::vector<std::pair<const char*, unisim_status>> answers(unisim_session* sessi
           {"get_pose", unisim_get_pose(session, 0, &pose)},
           {"get_trajectory", unisim_get_trajectory(session, &pose, 1, &count)},
           {"get_covariance", unisim_get_covariance(session, 1, covariance)},
+          {"multiply_covariance",
+           unisim_multiply_covariance(session, 0, 1, covariance, covariance + 7)},
           {"add_distance", unisim_add_distance(session, &distance)},
           {"add_submap_unit", unisim_add_submap_unit(session, &unit)},
           {"get_scale", unisim_get_scale(session, 0, &scale)},

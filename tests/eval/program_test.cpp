@@ -79,6 +79,31 @@ TEST_CASE("rpe takes step and unit") {
   REQUIRE(json["pairs"] == 2);
 }
 
+TEST_CASE("consistency judges the folder of a run") {
+  Program program;
+  program.folder().write("trajectory.tum", kEstimate);
+  program.folder().write("keyframes.csv",
+                         "timestamp,segment,state,confidence,position_sigma,rotation_sigma\n"
+                         "0,0,tracking,2,1,0.1\n1.01,0,tracking,3,0.001,0.1\n2,0,tracking,3,1,0.1\n"
+                         "3,0,degraded,3,,\n");
+  REQUIRE(program.run("consistency gt.txt . --json") == 0);
+  const auto json = nlohmann::json::parse(program.out);
+  REQUIRE(json["metric"] == "consistency");
+  REQUIRE(json["protocol"]["associated"] == 4);
+  REQUIRE(json["position"]["poses"] == 3);
+  REQUIRE(json["position"]["beyond_3_sigma"].get<double>() == Approx(1.0 / 3));
+  REQUIRE(json["without_sigma"] == 1);
+  REQUIRE(json["good"] == 3);
+  REQUIRE(json["good_far_off"] == 0);
+  REQUIRE(json["confidence_2"]["poses"] == 1);
+  REQUIRE(program.run("consistency gt.txt .") == 0);
+  REQUIRE(program.out.find("position beyond_3_sigma 0.333333333\n") != std::string::npos);
+  REQUIRE(program.out.find("good_far_off         0\n") != std::string::npos);
+  program.require_failure("consistency gt.txt nowhere", 3, "keyframes.csv");
+  program.folder().write("keyframes.csv", "timestamp,segment\n0,0\n");
+  program.require_failure("consistency gt.txt .", 3, "no column confidence");
+}
+
 TEST_CASE("cloud compares PLY files, moved as the trajectories align") {
   Program program;
   const std::string header =

@@ -178,6 +178,8 @@ void RandomCaller::read() {
   note(unisim_get_trajectory(session_, trajectory_.data(), trajectory_.size(), &count));
   double covariance[49];
   note(unisim_get_covariance(session_, below(keyframes_ + 2) - 1, covariance));
+  const int32_t asked = below(keyframes_ + 2) - 1;
+  note(unisim_multiply_covariance(session_, asked, 1 + below(3), covariance, covariance + 21));
   unisim_retired retired = {};
   retired.struct_size = sizeof retired;
   for (int k = 0; k < 20 && unisim_next_retired(session_, &retired) == UNISIM_OK; ++k) {

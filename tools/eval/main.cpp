@@ -105,6 +105,18 @@ int run_rpe(const Arguments& arguments) {
   return tools::kExitDone;
 }
 
+// ESTIMATE is the folder of a run.
+int run_consistency(const Arguments& arguments) {
+  const std::string table = arguments.estimate + "/keyframes.csv";
+  const std::vector<KeyframeClaim> claims = read_keyframe_table(table);
+  const auto [truth, estimate, notes] =
+      read_pair(arguments.ground_truth, arguments.estimate + "/trajectory.tum");
+  const Consistency found = consistency(truth, estimate, claims, arguments.max_dt_s);
+  print(arguments, consistency_json({truth, estimate, Alignment::kSim3, arguments.max_dt_s}, found),
+        notes);
+  return tools::kExitDone;
+}
+
 // A line leaves the turn of a cloud open.
 Similarity cloud_alignment(const Trajectory& truth, const Trajectory& estimate, double max_dt_s) {
   const Similarity T_truth_estimate =
@@ -310,6 +322,12 @@ void add_commands(CLI::App* app, Arguments* arguments) {
   rpe->add_flag("--all-pairs", arguments->step.all_pairs, "a step from every pose");
 
   add_cloud(app, arguments);
+
+  CLI::App* belief = app->add_subcommand(
+      "consistency",
+      "errors of keyframes over the standard deviations a run of unisim-replay gives them, EST "
+      "being its folder: both beside the other keyframes of a segment, after alignment (sim3)");
+  add_files(belief, arguments);
 }
 
 int run(int argc, const char* const* argv) {
@@ -320,6 +338,7 @@ int run(int argc, const char* const* argv) {
   if (!tools::parse(&app, argc, argv)) return tools::kExitDone;
   try {
     if (app.got_subcommand("ate")) return run_ate(arguments);
+    if (app.got_subcommand("consistency")) return run_consistency(arguments);
     return app.got_subcommand("rpe") ? run_rpe(arguments) : run_cloud(arguments);
   } catch (const ScoreError& error) {
     throw tools::Failure(tools::kExitInput,

@@ -52,11 +52,11 @@ void add_figures(const Json& object, const std::string& prefix, std::string* out
   const std::string unit = object.value("unit", "");
   for (const auto& [name, value] : object.items()) {
     const std::string label = prefix + name;
-    const bool has_unit = name != "scale" && name != "sse";
+    const bool has_unit = !unit.empty() && name != "scale" && name != "sse";
     if (is_figure(value)) {
       *out += drivers::format("%-20s %.9f%s%s\n", label.c_str(), value.get<double>(),
                               has_unit ? " " : "", has_unit ? unit.c_str() : "");
-    } else if (value.is_object() && value.contains("rmse")) {
+    } else if (value.is_object() && (value.contains("rmse") || value.contains("median"))) {
       add_figures(value, label + " ", out);
     }
   }
@@ -97,6 +97,34 @@ Json rpe_json(const Protocol& protocol, const RpeStep& step, const Rpe& rpe) {
   out["translation"] = statistics_json(rpe.translation, "m");
   out["rotation"] = statistics_json(rpe.rotation_deg, "deg");
   out["scale"] = rpe.T_truth_estimate.s;
+  return out;
+}
+
+Json consistency_json(const Protocol& protocol, const Consistency& found) {
+  const auto ratios = [](const Ratios& r) -> Json {
+    return {{"poses", r.count},
+            {"beyond_3_sigma", r.beyond_3},
+            {"median", r.median},
+            {"p95", r.p95},
+            {"max", r.max}};
+  };
+  size_t compared = 0;
+  for (const auto& [confidence, errors] : found.by_confidence) compared += errors.count;
+  Json out = {
+      {"schema", 1}, {"metric", "consistency"}, {"protocol", protocol_json(protocol, compared)}};
+  out["protocol"]["segments"] = found.segments;
+  out["protocol"]["segments_skipped"] = found.segments_skipped;
+  out["protocol"]["ratio"] = "error over the standard deviation of the run, both after alignment";
+  out["protocol"]["far_off"] = "more than 10 times the median error of the segment";
+  out["position"] = ratios(found.position);
+  out["rotation"] = ratios(found.rotation);
+  out["without_sigma"] = found.without_sigma;
+  out["good"] = found.good;
+  out["good_far_off"] = found.good_far_off;
+  for (const auto& [confidence, errors] : found.by_confidence) {
+    out["confidence_" + std::to_string(confidence)] = {
+        {"poses", errors.count}, {"unit", "m"}, {"median", errors.median}};
+  }
   return out;
 }
 
@@ -152,8 +180,9 @@ std::string text_of(const Json& result) {
         "%-20s %s\n", name.c_str(),
         value.is_string() ? value.get<std::string>().c_str() : tools::json_text(value).c_str());
   }
-  if (result.contains("pairs")) {
-    out += drivers::format("%-20s %zu\n", "pairs", result["pairs"].get<size_t>());
+  for (const char* count : {"pairs", "without_sigma", "good", "good_far_off"}) {
+    if (!result.contains(count)) continue;
+    out += drivers::format("%-20s %zu\n", count, result[count].get<size_t>());
   }
   add_figures(result, "", &out);
   return out;

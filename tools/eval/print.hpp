@@ -7,6 +7,7 @@
 #include "tools/common/json_text.hpp"
 #include "tools/eval/ate.hpp"
 #include "tools/eval/cloud_metrics.hpp"
+#include "tools/eval/consistency.hpp"
 #include "tools/eval/rpe.hpp"
 #include "tools/eval/truth_cloud.hpp"
 
@@ -24,6 +25,8 @@ struct Protocol {
 
 Json ate_json(const Protocol& protocol, const Ate& ate);
 Json rpe_json(const Protocol& protocol, const RpeStep& step, const Rpe& rpe);
+
+Json consistency_json(const Protocol& protocol, const Consistency& consistency);
 
 /// How two clouds were compared.
 struct CloudProtocol {

@@ -57,15 +57,20 @@ std::string trajectory_text(const std::string& title, const std::vector<unisim_s
 
 std::string keyframe_table(const RunData& data) {
   std::string text =
-      "id,timestamp,scale,state,confidence,submap,covariance_trace,segment,frame,unit,reason\n";
+      "id,timestamp,scale,state,confidence,submap,covariance_trace,segment,frame,unit,reason,"
+      "position_sigma,rotation_sigma\n";
   for (const KeyframeRow& row : data.keyframes) {
     text += format("%d,", row.pose.keyframe_id);
     text += drivers::stamp_text(row.pose.timestamp_ns);
     text += format(",%.10g,%s,%d,%d,", row.pose.T_world_kf.s, state_name(row.pose.state),
                    row.pose.confidence, row.pose.submap_id);
     if (row.covariance_trace >= 0.0) text += format("%.6g", row.covariance_trace);
-    text += format(",%d,%lld,%s,%s\n", row.pose.segment, static_cast<long long>(row.frame_index),
+    text += format(",%d,%lld,%s,%s,", row.pose.segment, static_cast<long long>(row.frame_index),
                    data.metric ? "metric" : "relative", pipeline::reason_name(row.reason));
+    if (row.sigma.position >= 0.0) text += format("%.6g", row.sigma.position);
+    text += ",";
+    if (row.sigma.rotation >= 0.0) text += format("%.6g", row.sigma.rotation);
+    text += "\n";
   }
   return text;
 }

@@ -51,6 +51,13 @@ void add_earlier(const unisim_session* session, const RunRecord& record, int32_t
   }
 }
 
+void add_sigmas(unisim_session* session, RunData* data) {
+  std::vector<unisim_pose> poses;
+  for (const KeyframeRow& row : data->keyframes) poses.push_back(row.pose);
+  const std::vector<PoseSigma> sigmas = pose_sigmas(session, poses);
+  for (size_t k = 0; k < sigmas.size(); ++k) data->keyframes[k].sigma = sigmas[k];
+}
+
 void take_away(const unisim_session_info& before, unisim_session_info* info) {
   info->keyframes -= before.keyframes;
   info->posed_keyframes -= before.posed_keyframes;
@@ -103,6 +110,7 @@ void to_metres(RunData* data) {
     if (scale != nullptr) metres = scale->metres_per_unit;
     for (double& t : row.pose.T_world_kf.t) t *= metres;
     row.pose.T_world_kf.s *= metres;
+    row.sigma.position *= metres;
   }
   for (size_t id = 0; id < data->submap_scale.size(); ++id) {
     data->submap_scale[id] *= metres_of_submap(*data, static_cast<int32_t>(id));
@@ -138,6 +146,7 @@ RunData collect(unisim_session* session, const RunRecord& record, bool every_fra
     data.keyframes.push_back(
         {pose, record.frame_of(id), covariance_trace(session, id), record.reason_of(id)});
   }
+  add_sigmas(session, &data);
   add_submaps(session, record, &data);
   ask_scales(session, &data);
   if (data.metric) to_metres(&data);

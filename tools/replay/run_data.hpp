@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "drivers/source.h"
+#include "tools/replay/pose_sigmas.hpp"
 #include "tools/replay/run_record.hpp"
 #include "unisim/unisim.h"
 
@@ -16,6 +17,7 @@ struct KeyframeRow {
   int64_t frame_index;
   double covariance_trace;  ///< of the 7x7 covariance, < 0: not known
   int32_t reason = 0;       ///< UNISIM_REASON_* when it was taken
+  PoseSigma sigma = {};     ///< beside the other keyframes of its segment
 };
 
 /// Scale of a segment.

@@ -38,6 +38,7 @@ void add_session_fields(unisim_config* c, std::vector<Field>* fields) {
        {s, "sigma_gate_loop", &c->sigma_gate_loop, Range::above(0.0, kLarge)},
        {s, "scatter_gate", &c->scatter_gate, Range::above(0.0, kLarge)},
        {s, "loop_gate", &c->loop_gate, Range::number(0.0, kLarge)},
+       {s, "sigma_factor", &c->sigma_factor, Range::number(0.0, kLarge)},
        {s, "window_submaps", &c->window_submaps, Range::whole(2, 64).or_zero()},
        {s, "skeleton_capacity", &c->skeleton_capacity, Range::whole(8, 65536).or_zero()},
        {s, "lost_after", &c->lost_after, Range::whole(1, 1000000)},
