@@ -295,6 +295,7 @@ class Session {
   // session/covariance.cpp
   int32_t carrier(const Keyframe& keyframe) const;
   Mat7 carried(const Keyframe& keyframe) const;
+  double own_variance(const Keyframe& keyframe) const;
   double told_variance() const;
 
   // session/optimize.cpp

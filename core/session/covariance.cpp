@@ -7,11 +7,13 @@
 namespace unisim {
 namespace {
 
-/// y += factor M x. Loops: unrolled products of fixed size make the library a kilobyte larger.
-void add_product(double factor, const Mat7& M, const double* x, double* y) {
+/// y += factor M x, or M' x; x every `step` numbers. Loops: unrolled products of fixed size make
+/// the library kilobytes larger.
+void add_product(double factor, const Mat7& M, bool transposed, const double* x, int step,
+                 double* y) {
   for (int row = 0; row < kTangentDim; ++row) {
     double sum = 0.0;
-    for (int k = 0; k < kTangentDim; ++k) sum += M(row, k) * x[k];
+    for (int k = 0; k < kTangentDim; ++k) sum += (transposed ? M(k, row) : M(row, k)) * x[k * step];
     y[row] += factor * sum;
   }
 }
@@ -31,8 +33,17 @@ Mat7 Session::carried(const Keyframe& keyframe) const {
   return sim3_adjoint(X);
 }
 
+/// How far a retired keyframe may be off in its submap, whose pose carries it: each window over it
+/// measured it once. Keyframes in the graph have that in their edges.
+double Session::own_variance(const Keyframe& keyframe) const {
+  if (!keyframe.retired()) return 0.0;
+  const double multiplier = map_.submaps[keyframe.owner].quality.multiplier;
+  return variance_factor_ / (multiplier * std::max<int32_t>(keyframe.window_count, 1));
+}
+
 /// Of an edge with full weight, as far as the predictor says how sure it is. Windows may be cut
-/// from one map and share most of what they saw: that they agree does not make them right.
+/// from one map and share most of what they saw: that they agree does not make them right, and what
+/// several of them say of a keyframe was measured once.
 double Session::told_variance() const {
   double sum = 0.0;
   int32_t windows = 0;
@@ -43,8 +54,11 @@ double Session::told_variance() const {
     sum += sigma * sigma;
     ++windows;
   }
-  const double factor = map_.config.sigma_factor;
-  return windows > 0 ? factor * factor * sum / windows : 0.0;
+  const SessionConfig& config = map_.config;
+  const double times_told = static_cast<double>(config.window_size) /
+                            static_cast<double>(config.window_size - config.window_overlap);
+  const double factor = config.sigma_factor * config.sigma_factor * times_told;
+  return windows > 0 ? factor * sum / windows : 0.0;
 }
 
 Status Session::covariance(int32_t keyframe, Mat7* covariance) {
@@ -55,16 +69,20 @@ Status Session::covariance(int32_t keyframe, Mat7* covariance) {
   if (node < 0 || map_.graph.revision() != solved_revision_) return Status::kNotReady;
   if (map_.graph.node(node).fixed) {
     covariance->setZero();
-    return Status::kOk;
+  } else {
+    const Status status = solver_.marginal_covariance(map_.graph, node, covariance);
+    if (!is_ok(status)) return status;
   }
-  const Status status = solver_.marginal_covariance(map_.graph, node, covariance);
-  if (!is_ok(status)) return status;
-  if (asked.retired()) {
-    const Mat7 Ad = carried(asked);
-    *covariance = (Ad * *covariance * Ad.transpose()).eval();
+  const Mat7 Ad = carried(asked);
+  double out[kTangentDim * kTangentDim] = {};  // Ad C Ad'
+  for (int k = 0; k < kTangentDim; ++k) {
+    double column[kTangentDim] = {};
+    add_product(variance_factor_, *covariance, false, Ad.data() + k, kTangentDim, column);
+    add_product(1.0, Ad, false, column, 1, out + kTangentDim * k);
+    out[(kTangentDim + 1) * k] += own_variance(asked);
   }
-  *covariance *= variance_factor_;
-  return status;
+  std::copy_n(out, kTangentDim * kTangentDim, covariance->data());
+  return Status::kOk;
 }
 
 Status Session::multiply_covariance(int32_t first, int32_t count, const double* weights,
@@ -85,15 +103,17 @@ Status Session::multiply_covariance(int32_t first, int32_t count, const double* 
     const Keyframe& keyframe = map_.keyframes[first + k];
     const int32_t column = column_of(keyframe);
     if (column < 0) continue;
-    add_product(1.0, carried(keyframe).transpose(), weights + kTangentDim * k, x[column].v);
+    add_product(1.0, carried(keyframe), true, weights + kTangentDim * k, 1, x[column].v);
   }
   solver_.finish_product(x);
   for (int32_t k = 0; k < count; ++k) {
     const Keyframe& keyframe = map_.keyframes[first + k];
     const int32_t column = column_of(keyframe);
     double* product = products + kTangentDim * k;
-    std::fill_n(product, kTangentDim, 0.0);
-    if (column >= 0) add_product(variance_factor_, carried(keyframe), x[column].v, product);
+    const double own = own_variance(keyframe);
+    for (int d = 0; d < kTangentDim; ++d) product[d] = own * weights[kTangentDim * k + d];
+    if (column >= 0)
+      add_product(variance_factor_, carried(keyframe), false, x[column].v, 1, product);
   }
   return Status::kOk;
 }

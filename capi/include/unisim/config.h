@@ -78,9 +78,9 @@ typedef struct unisim_config {
                                   optimisations; 0: 4 loop_delta (0) */
   double sigma_factor;       /**< true errors over center_sigma: covariances are at least what the
                                   predictor's center_sigma times this leads to, however well its
-                                  answers agree among each other. 4 for sigmas of a bundle
-                                  adjustment that takes residuals for independent, 1 for honest
-                                  ones; 0: residuals alone say it (4) */
+                                  answers agree among each other; that windows overlap is allowed
+                                  for. 4 for sigmas of a bundle adjustment that takes residuals for
+                                  independent, 1 for honest ones; 0: residuals alone say it (4) */
 } unisim_config;
 
 /** Defaults for every field.

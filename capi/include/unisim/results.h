@@ -53,11 +53,11 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_trajectory(const unisim_ses
  *  unisim_optimize(), times its variance of unit weight: 2 cost / degrees of freedom, or what the
  *  center_sigma of its windows says where that is more (unisim_config.sigma_factor). Zero for the
  *  first keyframe of a segment, which is held. Behind a sliding window it is that of the submap
- *  that carries the keyframe, zero on the first submap. Cost: one factorisation for the first
- *  keyframe asked for, then for each what of the inverse it needs and those before it did not: all
- *  keyframes together take about twice as long as the newest one. The system is built anew at the
- *  present poses for it, so the poses of later optimisations differ in their last digits (about
- *  1e-8) from those of a session that was not asked.
+ *  that carries the keyframe (zero for the first submap) and of the keyframe in it. Cost: one
+ *  factorisation for the first keyframe asked for, then for each what of the inverse it needs and
+ *  those before it did not: all keyframes together take about twice as long as the newest one. The
+ *  system is built anew at the present poses for it, so the poses of later optimisations differ in
+ *  their last digits (about 1e-8) from those of a session that was not asked.
  *  @param session live session
  *  @param keyframe_id as unisim_add_keyframe() gave it
  *  @param[out] covariance 49 values, column-major
@@ -71,17 +71,17 @@ UNISIM_API UNISIM_NODISCARD unisim_status unisim_get_covariance(unisim_session* 
  *  poses go together, which unisim_get_covariance() does not say. With a single 1 among the weights
  *  the products are a column of the joint covariance; with weights w_i they are the covariances of
  *  the sum of w_i' d_i with each d_i, where d_i is the error of pose i (tangent order), so that
- * what is known of a relative pose, or of what an alignment leaves, follows from a few products. In
- * the frame and scaled as unisim_get_covariance() does it. Keyframes that are held by the gauge or
- *  have no pose of their own take no part: their products are 0. Cost: one factorisation for the
- *  first product, then twice the solution of a factorised system for each.
+ *  what is known of a relative pose, or of what an alignment leaves, follows from a few products.
+ *  In the frame and scaled as unisim_get_covariance() does it. Keyframes that are held by the gauge
+ *  or have no pose of their own take no part: their products are 0. Cost: one factorisation for the
+ *  first product, then one solution of a factorised system for each.
  *  @param session live session
  *  @param first_keyframe, count these keyframes
  *  @param[in] weights   7 for each keyframe
  *  @param[out] products 7 for each keyframe; may not overlap weights
  *  @return UNISIM_OK, UNISIM_ERR_INVALID_ARGUMENT (a keyframe that is not there),
- * UNISIM_ERR_RETIRED, UNISIM_ERR_NOT_READY when the graph has changed since, UNISIM_ERR_NUMERICAL
- */
+ *          UNISIM_ERR_RETIRED, UNISIM_ERR_NOT_READY when the graph has changed since,
+ *          UNISIM_ERR_NUMERICAL */
 UNISIM_API UNISIM_NODISCARD unisim_status unisim_multiply_covariance(unisim_session* session,
                                                                      int32_t first_keyframe,
                                                                      int32_t count,
