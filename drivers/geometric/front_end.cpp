@@ -81,9 +81,11 @@ TrackMotion FrontEnd::motion(const Tracks& tracks) {
 }
 
 void FrontEnd::begin_keyframe(Tracks* tracks) {
-  if (keyframe_ >= 0 && keyframe_ != last_) {
-    retrack_.run(images_[static_cast<size_t>(keyframe_)], current(), tracks);
-  }
+  if (has_keyframe()) retrack_.run(keyframe(), current(), tracks);
+  space_out(tracks);
+}
+
+void FrontEnd::space_out(Tracks* tracks) {
   remove_crowded(std::max(2, static_cast<int>(kCrowded * spacing_)), fresh_mask(), tracks);
 }
 

@@ -38,12 +38,17 @@ class FrontEnd {
   void begin_keyframe(Tracks* tracks);
   /// Corners for new tracks, see Detector::run().
   const std::vector<cv::Point2f>& detect(const Tracks& tracks);
+  /// Of tracks too near each other the younger one goes.
+  void space_out(Tracks* tracks);
   void end_keyframe(Tracks* tracks);
 
   /// Of the frame seen last, as it came.
   const cv::Mat& gray() const { return preparation_.gray(); }
   size_t sealed() const { return sealed_; }  ///< tracks at the last keyframe
   const PreparedImage& current() const { return images_[static_cast<size_t>(last_)]; }
+  const PreparedImage& keyframe() const { return images_[static_cast<size_t>(keyframe_)]; }
+  /// Is there a keyframe before the frame seen last?
+  bool has_keyframe() const { return keyframe_ >= 0 && keyframe_ != last_; }
   const cv::Point2f& flow() const { return flow_; }  ///< median over the last frame
   /// Scratch of the image's size, set where nothing may be followed.
   cv::Mat* fresh_mask();

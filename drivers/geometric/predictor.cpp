@@ -104,7 +104,7 @@ int observe(unisim_predictor* predictor, const unisim_frame* frame, unisim_motio
     if (moved.displacement_px < 0) return UNISIM_PREDICTION_OK;
     motion->flow = moved.displacement_px / std::hypot(me->size.width, me->size.height);
     if (motion->flow < kStaticFlow && moved.kept > kStaticKept) ++me->static_frames;
-    if (moved.kept < kUrgentKept) motion->keyframe_advice = 1;
+    if (moved.kept < kUrgentKept || me->mapper->loses_much()) motion->keyframe_advice = 1;
     return UNISIM_PREDICTION_OK;
   });
 }

@@ -4,6 +4,7 @@
 
 #include "drivers/geometric/map/capacities.hpp"
 #include "tests/geometric/predictor_run.hpp"
+#include "tests/geometric/prepared_view.hpp"
 #include "tests/support/catch.hpp"
 
 namespace unisim::geometric::test {
@@ -24,8 +25,8 @@ class Drifted {
     state_.intrinsics = Intrinsics::start(state_.size, kFocal);
     atlas_.open(state_.size);
     remeasure_.reserve(1000);
-    prepare(CameraPlace(), &first_);
-    prepare(second, &second_);
+    prepare_view(CameraPlace(), &first_);
+    prepare_view(second, &second_);
     state_.map.push_keyframe(0, 0).posed = true;
     pose_.R = second.R.transpose();
     pose_.t = -pose_.R * second.center;
@@ -47,17 +48,6 @@ class Drifted {
   State& state() { return state_; }
 
  private:
-  void prepare(const CameraPlace& place, PreparedImage* out) {
-    ImagePreparation preparation;
-    const GrayImage pixels = render_room(place);
-    unisim_image image{};
-    image.data = pixels.data();
-    image.width = kWidth;
-    image.height = kHeight;
-    image.stride = kWidth;
-    image.format = UNISIM_PIXEL_GRAY8;
-    preparation.run(image, out);
-  }
   /// The wall ahead is at z = 3.
   void add(int x, int y) {
     const cv::Point2f at(static_cast<float>(x), static_cast<float>(y));

@@ -9,7 +9,9 @@
 namespace unisim::geometric {
 
 namespace {
-constexpr int kMinViews = 3;      // to triangulate
+constexpr int kMinViews = 3;  // to triangulate
+// After a large step two views do for so much between them: few landmarks get a third in time.
+constexpr double kTwoViewParallaxRad = 2.0 * 0.017453292519943295;
 constexpr int kMinSoftViews = 2;  // to guess
 constexpr size_t kMaxViews = 48;  // per triangulation, spread over the track
 constexpr size_t kMinNeighbours = 6;
@@ -115,7 +117,14 @@ void LandmarkGrowth::guess_depth(State* state, int32_t slot, int32_t keyframe,
   mark.soft = true;
 }
 
-void LandmarkGrowth::run(State* state, int32_t keyframe) {
+/// Are there views enough to triangulate from?
+bool LandmarkGrowth::measurable(const State& state, int32_t slot, bool large_step) {
+  if (state.map.landmark(slot).observations >= kMinViews) return true;
+  if (!large_step || !gather(state, slot)) return false;
+  return parallax_angle(views_.data(), static_cast<int>(views_.size())) > kTwoViewParallaxRad;
+}
+
+void LandmarkGrowth::run(State* state, int32_t keyframe, bool large_step) {
   collect_neighbours(state, keyframe);
   const Keyframe& newest = state->map.keyframe(keyframe);
   for (int32_t i = 0; i < newest.observations; ++i) {
@@ -127,7 +136,7 @@ void LandmarkGrowth::run(State* state, int32_t keyframe) {
       continue;
     }
     if (mark.state != LandmarkState::kCandidate || mark.observations < kMinSoftViews) continue;
-    if (mark.observations >= kMinViews &&
+    if (measurable(*state, seen.landmark, large_step) &&
         triangulate_landmark(state, seen.landmark, kTriangulationGate)) {
       continue;
     }

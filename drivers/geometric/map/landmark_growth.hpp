@@ -19,7 +19,8 @@ class LandmarkGrowth {
   bool triangulate_landmark(State* state, int32_t slot, double gate);
 
   /// The step after the newest keyframe has its pose.
-  void run(State* state, int32_t keyframe);
+  /// @param large_step it had lost most of what the one before saw: two views do for a landmark
+  void run(State* state, int32_t keyframe, bool large_step);
 
  private:
   struct Neighbour {
@@ -27,6 +28,7 @@ class LandmarkGrowth {
     double depth;
     double weight;
   };
+  bool measurable(const State& state, int32_t slot, bool large_step);
   bool gather(const State& state, int32_t slot);
   void collect_neighbours(State* state, int32_t keyframe);
   void promote(State* state, int32_t slot);

@@ -16,12 +16,6 @@ namespace unisim::geometric {
 namespace {
 
 constexpr double kSpacing = 0.6;  // of the mean distance between evenly spread features
-// Keyframes without pose until a new segment begins, and the time it takes at least: as long a
-// hand, a blur or a white wall is waited for. With keyframes so dense, or times so wrong, that it
-// never passes, many keyframes do.
-constexpr int kMaxLostInRow = 2;
-constexpr int kManyLostInRow = 15;
-constexpr int64_t kWaitNs = 500000000;
 constexpr int32_t kLoopGap = 10;  // keyframes from one adjustment to the next when a loop waits
 constexpr int kLoopIterations = 6;
 constexpr int kEarlyIterations = 8;
@@ -43,6 +37,7 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
       revive_(&atlas_),
       remeasure_(&atlas_),
       places_(state_.config, static_cast<size_t>(observations_per_keyframe(config)), &atlas_),
+      lost_tracks_(&places_.orb(), &atlas_),
       window_(window_capacity(config), map_capacity(config)),
       background_(whole_capacity(config), map_capacity(config), config.background != 0) {
   state_.size = size;
@@ -57,6 +52,7 @@ Mapper::Mapper(const unisim_geometric_config& config, const cv::Size& size)
   if (config.shutter == UNISIM_SHUTTER_ROLLING) state_.intrinsics.roll(1e-3 * config.readout_ms);
   const auto tracks = static_cast<size_t>(observations_per_keyframe(config));
   state_.tracks.reserve(tracks);
+  lost_tracks_.reserve(config.max_tracks, tracks);
   places_.open(size);
   front_end_.open(size, config.max_tracks, state_.feature_spacing, config.mask);
   poses_.reserve(tracks);
@@ -137,6 +133,7 @@ void Mapper::detect_tracks() {
 
 bool Mapper::add_keyframe(int32_t id) {
   front_end_.begin_keyframe(&state_.tracks);
+  look_for_lost_tracks();
   if (counts_.started == 0) {
     start_.see_keyframe(state_.tracks, front_end_.sealed(), state_.pixel_scale,
                         front_end_.current().gray);
@@ -153,6 +150,7 @@ bool Mapper::add_keyframe(int32_t id) {
     try_start(id);
   }
   front_end_.end_keyframe(&state_.tracks);
+  lost_tracks_.note_keyframe(state_);
   after_keyframe_ = true;
   return adjusted;
 }
@@ -222,7 +220,7 @@ void Mapper::take_pose(int32_t id, const FramePose& first) {
   }
   newest.center_sigma = found.center_sigma;
   detect_tracks();
-  growth_.run(&state_, id);
+  growth_.run(&state_, id, loses_much_);
   turns_.see_keyframe(state_, id);
   if (turns_.guessed(id, id)) tell_turn();
   adjust_window(id);
@@ -230,17 +228,6 @@ void Mapper::take_pose(int32_t id, const FramePose& first) {
   revive_.store_patches(state_, front_end_.current(), id, &patches_);
   unkept_ = id;
   adjust_whole(id);
-}
-
-void Mapper::recover(int32_t id, const CameraPose& near) {
-  if (!state_.map.holds(id) || state_.map.keyframe(id).posed) return;
-  const FramePose found = poses_.solve_old(state_, id, near);
-  if (!found.good) return;
-  Keyframe& lost = state_.map.keyframe(id);
-  lost.pose = found.pose;
-  lost.posed = true;
-  ++state_.posed;
-  mark_outliers(&state_, id, 2 * kInlierGate);
 }
 
 void Mapper::adjust_whole(int32_t id) {
@@ -278,58 +265,6 @@ bool Mapper::join(int32_t id) {
   joining_ = true;
   background_.start(state_, id, kFinalIterations, &loops_, joined_ids_);
   return true;
-}
-
-bool Mapper::waited_long() const {
-  if (lost_in_row_ < kMaxLostInRow) return false;
-  return time_ns_ - lost_since_ns_ >= kWaitNs || lost_in_row_ >= kManyLostInRow;
-}
-
-bool Mapper::relocalise(int32_t id) {
-  if (!places_.relocalise(look(id), &found_)) return false;
-  let_go();
-  state_.tracks.clear();
-  for (const PatchMatch& match : found_.matches) {
-    state_.tracks.add(match.point, cv::Point2f(), match.landmark);
-    state_.map.landmark(match.landmark).followed = true;
-  }
-  state_.intrinsics = lost_intrinsics_;
-  const int32_t segment = state_.map.keyframe(found_.keyframe).segment;
-  if (segment != state_.segment || !state_.initialised) state_.enter(segment);
-  state_.initialised = true;
-  FramePose pose = poses_.refine(state_, found_.pose);
-  pose.good = true;  // more has been asked of it than of a pose from tracks
-  take_pose(id, pose);
-  return true;
-}
-
-void Mapper::lose(int32_t id) {
-  if (lost_in_row_++ == 0) {
-    lost_since_ns_ = time_ns_;
-    lost_intrinsics_ = state_.intrinsics;
-  }
-  if (relocalise(id)) return;
-  if (waited_long()) {
-    begin_segment(id);
-    try_start(id);
-    return;
-  }
-  state_.map.push_keyframe(id, state_.segment);
-  observe_tracks(0);
-  detect_tracks();
-}
-
-void Mapper::begin_segment(int32_t id) {
-  ++counts_.restarts;
-  state_.begin(id);
-  adjusted_posed_ = 0;
-  bootstrap_.restart(id);
-  let_go();
-  for (size_t i = 0; i < state_.tracks.size(); ++i) {
-    const int32_t slot = state_.map.add_landmark(state_.segment);
-    state_.map.landmark(slot).followed = true;
-    state_.tracks.landmark[i] = slot;
-  }
 }
 
 void Mapper::adjust_window(int32_t id) {
@@ -395,8 +330,8 @@ bool Mapper::finish() {
 int64_t Mapper::bytes() const {
   const auto tracks = static_cast<int64_t>(state_.tracks.point.capacity());
   return state_.map.bytes() + patches_.bytes() + atlas_.bytes() + places_.bytes() +
-         revive_.bytes() + remeasure_.bytes() + window_.bytes() + background_.bytes() +
-         front_end_.bytes() +
+         revive_.bytes() + remeasure_.bytes() + lost_tracks_.bytes() + window_.bytes() +
+         background_.bytes() + front_end_.bytes() +
          tracks * static_cast<int64_t>(3 * sizeof(cv::Point2f) + sizeof(int32_t) + 1);
 }
 

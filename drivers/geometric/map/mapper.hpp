@@ -16,6 +16,7 @@
 #include "drivers/geometric/map/spot_turns.hpp"
 #include "drivers/geometric/map/state.hpp"
 #include "drivers/geometric/places/locator.hpp"
+#include "drivers/geometric/places/lost_tracks.hpp"
 #include "drivers/geometric/places/places.hpp"
 #include "drivers/geometric/start/bootstrap.hpp"
 #include "drivers/geometric/zoom/zoom_watch.hpp"
@@ -36,6 +37,8 @@ class Mapper {
   void see(const unisim_frame& frame);
   int32_t frame_reason() const { return front_end_.reason(); }  ///< see FrontEnd
   TrackMotion motion() { return front_end_.motion(state_.tracks); }
+  /// The last keyframe had lost most of what the one before saw: the next frame had better be one.
+  bool loses_much() const { return loses_much_; }
   /// The frame seen last is keyframe `id`. @return true when the whole state has been adjusted anew
   bool add_keyframe(int32_t id);
   /// What the newest keyframe has to do with places: it takes longer than the pose, and nobody
@@ -82,6 +85,8 @@ class Mapper {
   void tell_zoom(int64_t frame);
   void tell_turn();
   void note_followed();
+  /// Tracks lost since the last keyframe, where they are too many.
+  void look_for_lost_tracks();
   /// The landmarks of the tracks are no longer followed.
   void let_go();
   void observe_tracks(size_t first);
@@ -114,6 +119,7 @@ class Mapper {
   Revive revive_;
   Remeasure remeasure_;
   Places places_;
+  LostTracks lost_tracks_;
   PlaceFound found_;
   Locator locator_;
   std::vector<LoopObservation> loops_;
@@ -133,6 +139,7 @@ class Mapper {
   bool joining_ = false;        // the adjustment started last is that of a join
   bool zoom_told_ = false;
   bool turn_told_ = false;
+  bool loses_much_ = false;
   bool after_keyframe_ = false;  // the frame seen last is one
   int lost_in_row_ = 0;
   int32_t unkept_ = -1;         // keyframe whose place has not been kept yet

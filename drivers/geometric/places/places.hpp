@@ -35,6 +35,7 @@ class Places {
   /// in others.
   void keep(const Look& look);
 
+  Orb& orb() { return finder_.orb(); }
   LoopBook& loops() { return loops_; }
   /// Is another segment known to lie so and so to the present one? See BridgeBook::take().
   bool take_join(const State& state, SegmentJoin* out, std::vector<LoopObservation>* observations);
