@@ -102,10 +102,13 @@ TEST_CASE("events carry the figures, the image with its features and the map") {
   view.live = {{-1, 0, {{0, 0, 0, 1}, {0, 0, 0}, 1}}, {-1, 0, {{0, 0, 0, 1}, {1, 0, 2}, 1}}};
   view.corrected = view.live;
   std::string got;
-  const auto whole = [&got] {
-    return has(got, "\"frames\":77,") && has(got, "event: frame\n") && has(got, "event: map\n") &&
-           got.find("\n\n", got.find("event: frame\n")) != std::string::npos &&
-           got.find("\n\n", got.find("event: map\n")) != std::string::npos;
+  const auto ends_after = [&got](const char* part) {
+    const size_t begin = got.find(part);
+    return begin != std::string::npos && got.find("\n\n", begin) != std::string::npos;
+  };
+  const auto whole = [&] {
+    return ends_after("\"frames\":77,") && ends_after("event: frame\n") &&
+           ends_after("event: map\n");
   };
   serving.client.Get("/events", [&](const char* data, size_t size) {
     View offered = view;
