@@ -54,9 +54,9 @@ UNISIM_ALWAYS_INLINE void weigh(const PackKernel& kernel, Pack square, PackNorma
 UNISIM_ALWAYS_INLINE void square(const PackJacobianInverse& M, const PackTangent& e,
                                  const PackKernel& kernel, PackNormal* out) {
   PackSymmetric& S = out->H_bb;
-  S.tt = M.VV;
+  S.tt = M.V_square;
   S.tr = transposed_times(M.V_inv, M.X);
-  S.rr = square(M.X) + M.JJ;
+  S.rr = square(M.X) + M.J_square;
   S.ts = times(M.x, M.V_inv);
   S.rs = times(M.x, M.X);
   S.ss = dot(M.x, M.x) + 1.0;

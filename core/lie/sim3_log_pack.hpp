@@ -26,8 +26,8 @@ struct PackJacobianInverse {
   Pack33 X;
   Pack33 J_inv;
   Pack3 x;
-  Pack33 VV;  ///< V_inv' V_inv
-  Pack33 JJ;  ///< J_inv' J_inv
+  Pack33 V_square;  ///< V_inv' V_inv
+  Pack33 J_square;  ///< J_inv' J_inv
 };
 
 /// As LogCoefficients.
@@ -165,8 +165,8 @@ UNISIM_ALWAYS_INLINE void log_with_jacobian(const PackSim3& T, PackTangent* e,
   M->V_inv = plus_diagonal(plus_hat(V_left, phi), sigma);
   M->X = plus_hat(times(D, J_left) - times_hat(V_left, T.t), e->rho);
   M->J_inv = plus_hat(J_left, phi);
-  M->VV = polynomial_square(phi, theta2, k.a + sigma, k.b + 1.0, k.c);
-  M->JJ = polynomial_square(phi, theta2, splat(1.0), splat(0.5), k.c_rotation);
+  M->V_square = polynomial_square(phi, theta2, k.a + sigma, k.b + 1.0, k.c);
+  M->J_square = polynomial_square(phi, theta2, splat(1.0), splat(0.5), k.c_rotation);
   M->x = k.a_sigma * T.t + k.b_sigma * once + k.c_sigma * twice;
 }
 

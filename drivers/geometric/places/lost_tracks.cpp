@@ -20,15 +20,15 @@ namespace {
 // that are left must be few in share and in number.
 constexpr double kFewShare = 0.5;
 constexpr double kFewOfMost = 0.375;
-constexpr int32_t kFarthest = 64;      // bits of 256
-constexpr double kRatio = 0.8;         // to the next best
+constexpr int32_t kFarthestBits = 64;  // of 256
+constexpr double kLostRatio = 0.8;     // to the next best
 constexpr float kSameCorner = 4.0F;    // pixels: one corner, at several scales
 constexpr double kEpipolarGate = 1.5;  // pixels at the reference diagonal
-constexpr int kRounds = 1000;
-constexpr size_t kLeast = 15;  // pairs that one motion explains
-constexpr size_t kNear = 6;    // features that say how the image around a point has moved
+constexpr int kMotionRounds = 1000;
+constexpr size_t kLeastPairs = 15;  // pairs that one motion explains
+constexpr size_t kNearSeeds = 6;    // features that say how the image around a point has moved
 constexpr double kMostZoom = 3.0;
-constexpr double kReach = 16.0;  // pixels at the reference diagonal from where it should be
+constexpr double kLostReach = 16.0;  // pixels at the reference diagonal from where it should be
 
 /// Numbers features so that those of one corner share a number: that of the first.
 void number_corners(const std::vector<cv::Point2f>& points, std::vector<int32_t>* corners) {
@@ -98,12 +98,12 @@ void LostTracks::match_features(const PreparedImage& keyframe, const PreparedIma
     const auto* row = before_.descriptor.ptr<uint8_t>(static_cast<int>(i));
     std::copy(row, row + kOrbBytes, descriptors_[i].begin());
   }
-  std::vector<int32_t> nearest(before_.point.size(), kFarthest + 1);
+  std::vector<int32_t> nearest(before_.point.size(), kFarthestBits + 1);
   std::vector<size_t> match(before_.point.size(), 0);
   for (size_t f = 0; f < now_.point.size(); ++f) {
     const NearestDescriptors like = nearest_descriptors(
         descriptors_, corners_, now_.descriptor.ptr<uint8_t>(static_cast<int>(f)));
-    if (like.group < 0 || like.distance > kRatio * like.runner_up) continue;
+    if (like.group < 0 || like.distance > kLostRatio * like.runner_up) continue;
     const auto corner = static_cast<size_t>(like.group);
     if (like.distance >= nearest[corner]) continue;
     nearest[corner] = like.distance;
@@ -111,7 +111,7 @@ void LostTracks::match_features(const PreparedImage& keyframe, const PreparedIma
   }
   seeds_.clear();
   for (size_t i = 0; i < nearest.size(); ++i) {
-    if (nearest[i] <= kFarthest) seeds_.push_back({0, before_.point[i], now_.point[match[i]]});
+    if (nearest[i] <= kFarthestBits) seeds_.push_back({0, before_.point[i], now_.point[match[i]]});
   }
 }
 
@@ -132,12 +132,12 @@ bool LostTracks::explain(const State& state, std::vector<Pair>* pairs) {
     to_.push_back(straight(camera, tracks.point[i]));
   }
   bad_.assign(tracks.size(), 0);
-  if (from_.size() < kLeast) return false;
+  if (from_.size() < kLeastPairs) return false;
   cv::Mat explained;
   cv::findFundamentalMat(from_, to_, cv::USAC_MAGSAC, kEpipolarGate * state.pixel_scale, 0.999,
-                         kRounds, explained);
+                         kMotionRounds, explained);
   if (explained.total() != from_.size()) return false;
-  if (cv::countNonZero(explained) < static_cast<int>(kLeast)) return false;
+  if (cv::countNonZero(explained) < static_cast<int>(kLeastPairs)) return false;
   int next = 0;
   size_t kept = 0;
   for (const Pair& pair : *pairs) {
@@ -153,8 +153,8 @@ bool LostTracks::explain(const State& state, std::vector<Pair>* pairs) {
 /// How the image near a point has moved, been turned and scaled: the similarity that fits the
 /// nearest features best. @return false: not known
 bool LostTracks::motion_near(const cv::Point2f& from, cv::Matx23d* motion) const {
-  if (seeds_.size() < kNear) return false;
-  std::array<std::pair<float, size_t>, kNear> near;
+  if (seeds_.size() < kNearSeeds) return false;
+  std::array<std::pair<float, size_t>, kNearSeeds> near;
   near.fill({std::numeric_limits<float>::max(), 0});
   for (size_t s = 0; s < seeds_.size(); ++s) {
     const cv::Point2f away = seeds_[s].from - from;
@@ -165,8 +165,8 @@ bool LostTracks::motion_near(const cv::Point2f& from, cv::Matx23d* motion) const
   cv::Point2d mean_from;
   cv::Point2d mean_to;
   for (const auto& [distance, s] : near) {
-    mean_from += cv::Point2d(seeds_[s].from) / static_cast<double>(kNear);
-    mean_to += cv::Point2d(seeds_[s].to) / static_cast<double>(kNear);
+    mean_from += cv::Point2d(seeds_[s].from) / static_cast<double>(kNearSeeds);
+    mean_to += cv::Point2d(seeds_[s].to) / static_cast<double>(kNearSeeds);
   }
   double along = 0;
   double across = 0;
@@ -224,7 +224,7 @@ void LostTracks::find_patches(const PreparedImage& keyframe, const PreparedImage
     }
     atlas_->find(current, kMinTexture);
     for (size_t j = 0; j < count; ++j) {
-      if (!atlas_->found(j, current, kReach * state.pixel_scale, kTrackMargin)) continue;
+      if (!atlas_->found(j, current, kLostReach * state.pixel_scale, kTrackMargin)) continue;
       found_.push_back(
           {expected_[first + j].track, expected_[first + j].from, atlas_->found_at(j)});
     }
