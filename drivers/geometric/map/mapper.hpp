@@ -37,8 +37,9 @@ class Mapper {
   void see(const unisim_frame& frame);
   int32_t frame_reason() const { return front_end_.reason(); }  ///< see FrontEnd
   TrackMotion motion() { return front_end_.motion(state_.tracks); }
-  /// The last keyframe had lost most of what the one before saw: the next frame had better be one.
-  bool loses_much() const { return loses_much_; }
+  /// The last keyframe had lost most of what the one before saw, and the frame seen last shows
+  /// something: it had better be a keyframe too.
+  bool loses_much() const { return loses_much_ && frame_reason() == UNISIM_REASON_NONE; }
   /// The frame seen last is keyframe `id`. @return true when the whole state has been adjusted anew
   bool add_keyframe(int32_t id);
   /// What the newest keyframe has to do with places: it takes longer than the pose, and nobody
