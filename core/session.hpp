@@ -187,8 +187,7 @@ class Session {
 
   // ---- covariances (session/covariance.cpp)
   /// @return kOk; kRetired; kInvalidArgument for an unknown id; kNotReady when the graph has
-  /// changed
-  ///         since the last optimisation or the pose is held; kNumerical
+  ///         changed since the last optimisation or the pose is held; kNumerical
   Status covariance(int32_t keyframe, Mat7* covariance);
   /// Joint covariance of the poses of `count` keyframes from `first` on, times a vector; seven
   /// numbers a keyframe, those without a pose of their own take no part.

@@ -3,6 +3,7 @@
 // for at a time.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <vector>
@@ -27,6 +28,22 @@ class PatchAtlas {
   /// @param from the point in the atlas  @param expected where it should be in the image
   void add(const cv::Point2f& from, const cv::Point2f& expected);
   size_t size() const { return flow_.size(); }
+  /// Looks for `count` patches in an image, as many at a time as there is room for.
+  /// @param draw (i, j) puts patch i into tile j and adds it  @param drawn () ends a round of them
+  /// @param take (i, j) sees what was found of it
+  template <class Draw, class Drawn, class Take>
+  void look_for(size_t count, const PreparedImage& image, double least_texture, Draw draw,
+                Drawn drawn, Take take) {
+    const size_t tiles = capacity();
+    for (size_t first = 0; tiles > 0 && first < count; first += tiles) {
+      const size_t round = std::min(tiles, count - first);
+      clear();
+      for (size_t j = 0; j < round; ++j) draw(first + j, j);
+      drawn();
+      find(image, least_texture);
+      for (size_t j = 0; j < round; ++j) take(first + j, j);
+    }
+  }
   const cv::Point2f& expected(size_t j) const { return expected_[j]; }
   cv::Mat& gray() { return atlas_.gray; }
 

@@ -2,7 +2,6 @@
 // Tracks of known landmarks are measured again from an old patch.
 #include "drivers/geometric/map/remeasure.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -62,19 +61,14 @@ void Remeasure::put_tile(const PatchStore& patches, const CameraPose& pose, cons
 int Remeasure::run(const PatchStore& patches, const PreparedImage& current, const CameraPose& pose,
                    State* state) {
   collect(patches, pose, *state);
-  const size_t tiles = atlas_.capacity();
   int moved = 0;
-  for (size_t first = 0; tiles > 0 && first < items_.size(); first += tiles) {
-    const size_t count = std::min(tiles, items_.size() - first);
-    atlas_.clear();
-    for (size_t j = 0; j < count; ++j) put_tile(patches, pose, *state, j, items_[first + j]);
-    atlas_.find(current, kMinTexture);
-    for (size_t j = 0; j < count; ++j) {
-      if (!atlas_.found(j, current, kReach * state->pixel_scale, kMargin)) continue;
-      state->tracks.point[items_[first + j].track] = atlas_.found_at(j);
-      ++moved;
-    }
-  }
+  const auto draw = [&](size_t i, size_t j) { put_tile(patches, pose, *state, j, items_[i]); };
+  const auto take = [&](size_t i, size_t j) {
+    if (!atlas_.found(j, current, kReach * state->pixel_scale, kMargin)) return;
+    state->tracks.point[items_[i].track] = atlas_.found_at(j);
+    ++moved;
+  };
+  atlas_.look_for(items_.size(), current, kMinTexture, draw, [] {}, take);
   return moved;
 }
 

@@ -56,15 +56,12 @@ void Revive::collect(const PatchStore& patches, const CameraPose& pose, int32_t 
   if (candidates_.size() > limit) candidates_.resize(limit);
 }
 
-void Revive::fill_atlas(const PatchStore& patches, size_t first, size_t count) {
-  atlas_.clear();
-  for (size_t j = 0; j < count; ++j) {
-    const Candidate& candidate = candidates_[first + j];
-    patches.pixels(candidate.landmark, candidate.patch).copyTo(atlas_.tile(j));
-    const cv::Point2f& offset = patches.view(candidate.landmark, candidate.patch).offset;
-    const cv::Point middle = atlas_.corner(j) + cv::Point(kPatchSide / 2, kPatchSide / 2);
-    atlas_.add(cv::Point2f(middle) + offset, candidate.expected);
-  }
+void Revive::draw(const PatchStore& patches, size_t i, size_t j) {
+  const Candidate& candidate = candidates_[i];
+  patches.pixels(candidate.landmark, candidate.patch).copyTo(atlas_.tile(j));
+  const cv::Point2f& offset = patches.view(candidate.landmark, candidate.patch).offset;
+  const cv::Point middle = atlas_.corner(j) + cv::Point(kPatchSide / 2, kPatchSide / 2);
+  atlas_.add(cv::Point2f(middle) + offset, candidate.expected);
 }
 
 int Revive::run(const PatchStore& patches, const PreparedImage& current, const CameraPose& pose,
@@ -74,25 +71,21 @@ int Revive::run(const PatchStore& patches, const PreparedImage& current, const C
     cv::circle(*mask, cv::Point(p), reach, cv::Scalar(255), -1);
   }
   collect(patches, pose, keyframe, *mask, *state);
-  const size_t tiles = atlas_.capacity();
   const double distance = kMaxDistance * state->pixel_scale;
+  const int crowd = std::max(2, static_cast<int>(kCrowded * state->feature_spacing));
   int added = 0;
-  for (size_t first = 0; tiles > 0 && first < candidates_.size(); first += tiles) {
-    const size_t count = std::min(tiles, candidates_.size() - first);
-    fill_atlas(patches, first, count);
-    atlas_.find(current, kMinTexture);
-    for (size_t j = 0; j < count; ++j) {
-      const Candidate& candidate = candidates_[first + j];
-      if (!atlas_.found(j, current, distance, kAcceptMargin)) continue;
-      const cv::Point at(atlas_.found_at(j));
-      if (mask->at<uint8_t>(at)) continue;
-      const int crowd = std::max(2, static_cast<int>(kCrowded * state->feature_spacing));
-      cv::circle(*mask, at, crowd, cv::Scalar(255), -1);
-      state->tracks.add(atlas_.found_at(j), flow, candidate.landmark);
-      state->map.landmark(candidate.landmark).followed = true;
-      ++added;
-    }
-  }
+  const auto take = [&](size_t i, size_t j) {
+    if (!atlas_.found(j, current, distance, kAcceptMargin)) return;
+    const cv::Point at(atlas_.found_at(j));
+    if (mask->at<uint8_t>(at)) return;
+    cv::circle(*mask, at, crowd, cv::Scalar(255), -1);
+    state->tracks.add(atlas_.found_at(j), flow, candidates_[i].landmark);
+    state->map.landmark(candidates_[i].landmark).followed = true;
+    ++added;
+  };
+  atlas_.look_for(
+      candidates_.size(), current, kMinTexture, [&](size_t i, size_t j) { draw(patches, i, j); },
+      [] {}, take);
   return added;
 }
 

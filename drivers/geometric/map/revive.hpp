@@ -40,7 +40,7 @@ class Revive {
   };
   void collect(const PatchStore& patches, const CameraPose& pose, int32_t keyframe,
                const cv::Mat& occupied, const State& state);
-  void fill_atlas(const PatchStore& patches, size_t first, size_t count);
+  void draw(const PatchStore& patches, size_t i, size_t j);
 
   std::vector<Candidate> candidates_;
   PatchAtlas& atlas_;

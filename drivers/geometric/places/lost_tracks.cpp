@@ -10,7 +10,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "drivers/geometric/image/frame_tracker.hpp"
-#include "drivers/geometric/places/nearest_descriptors.hpp"
 
 namespace unisim::geometric {
 
@@ -20,8 +19,6 @@ namespace {
 // that are left must be few in share and in number.
 constexpr double kFewShare = 0.5;
 constexpr double kFewOfMost = 0.375;
-constexpr int32_t kFarthestBits = 64;  // of 256
-constexpr double kLostRatio = 0.8;     // to the next best
 constexpr float kSameCorner = 4.0F;    // pixels: one corner, at several scales
 constexpr double kEpipolarGate = 1.5;  // pixels at the reference diagonal
 constexpr int kMotionRounds = 1000;
@@ -84,7 +81,7 @@ bool LostTracks::many(const Tracks& tracks) const {
 }
 
 /// Features of the two images that look like each other and like no other corner.
-void LostTracks::match_features(const PreparedImage& keyframe, const PreparedImage& current) {
+void LostTracks::find_seeds(const PreparedImage& keyframe, const PreparedImage& current) {
   if (before_known_) {
     std::swap(before_, now_);
   } else {
@@ -98,20 +95,11 @@ void LostTracks::match_features(const PreparedImage& keyframe, const PreparedIma
     const auto* row = before_.descriptor.ptr<uint8_t>(static_cast<int>(i));
     std::copy(row, row + kOrbBytes, descriptors_[i].begin());
   }
-  std::vector<int32_t> nearest(before_.point.size(), kFarthestBits + 1);
-  std::vector<size_t> match(before_.point.size(), 0);
-  for (size_t f = 0; f < now_.point.size(); ++f) {
-    const NearestDescriptors like = nearest_descriptors(
-        descriptors_, corners_, now_.descriptor.ptr<uint8_t>(static_cast<int>(f)));
-    if (like.group < 0 || like.distance > kLostRatio * like.runner_up) continue;
-    const auto corner = static_cast<size_t>(like.group);
-    if (like.distance >= nearest[corner]) continue;
-    nearest[corner] = like.distance;
-    match[corner] = f;
-  }
+  match_features(now_, descriptors_, corners_, before_.point.size(), kOrbFeatures, &matches_);
   seeds_.clear();
-  for (size_t i = 0; i < nearest.size(); ++i) {
-    if (nearest[i] <= kFarthestBits) seeds_.push_back({0, before_.point[i], now_.point[match[i]]});
+  for (const FeaturePair& match : matches_) {
+    seeds_.push_back({0, before_.point[static_cast<size_t>(match.group)],
+                      now_.point[static_cast<size_t>(match.feature)]});
   }
 }
 
@@ -210,30 +198,23 @@ void LostTracks::expect_lost(const State& state) {
 void LostTracks::find_patches(const PreparedImage& keyframe, const PreparedImage& current,
                               const State& state) {
   found_.clear();
-  const size_t tiles = atlas_->capacity();
   const cv::Point2f middle(kPatchSide / 2, kPatchSide / 2);
-  for (size_t first = 0; tiles > 0 && first < expected_.size(); first += tiles) {
-    const size_t count = std::min(tiles, expected_.size() - first);
-    atlas_->clear();
-    for (size_t j = 0; j < count; ++j) {
-      const Pair& pair = expected_[first + j];
-      cv::Mat tile = atlas_->tile(j);
-      cv::warpAffine(keyframe.gray, tile, out_of_tile(motions_[first + j], pair.from), tile.size(),
-                     cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
-      atlas_->add(cv::Point2f(atlas_->corner(j)) + middle, pair.to);
-    }
-    atlas_->find(current, kMinTexture);
-    for (size_t j = 0; j < count; ++j) {
-      if (!atlas_->found(j, current, kLostReach * state.pixel_scale, kTrackMargin)) continue;
-      found_.push_back(
-          {expected_[first + j].track, expected_[first + j].from, atlas_->found_at(j)});
-    }
-  }
+  const auto draw = [&](size_t i, size_t j) {
+    cv::Mat tile = atlas_->tile(j);
+    cv::warpAffine(keyframe.gray, tile, out_of_tile(motions_[i], expected_[i].from), tile.size(),
+                   cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
+    atlas_->add(cv::Point2f(atlas_->corner(j)) + middle, expected_[i].to);
+  };
+  const auto take = [&](size_t i, size_t j) {
+    if (!atlas_->found(j, current, kLostReach * state.pixel_scale, kTrackMargin)) return;
+    found_.push_back({expected_[i].track, expected_[i].from, atlas_->found_at(j)});
+  };
+  atlas_->look_for(expected_.size(), current, kMinTexture, draw, [] {}, take);
 }
 
 int LostTracks::run(const PreparedImage& keyframe, const PreparedImage& current,
                     const cv::Point2f& flow, State* state) {
-  match_features(keyframe, current);
+  find_seeds(keyframe, current);
   if (!explain(*state, &seeds_)) return 0;
   expect_lost(*state);
   find_patches(keyframe, current, *state);

@@ -11,6 +11,7 @@
 #include "drivers/geometric/image/prepared_image.hpp"
 #include "drivers/geometric/image/tracks.hpp"
 #include "drivers/geometric/map/state.hpp"
+#include "drivers/geometric/places/nearest_descriptors.hpp"
 #include "drivers/geometric/places/orb.hpp"
 
 namespace unisim::geometric {
@@ -45,7 +46,7 @@ class LostTracks {
     cv::Point2f from;
     cv::Point2f to;
   };
-  void match_features(const PreparedImage& keyframe, const PreparedImage& current);
+  void find_seeds(const PreparedImage& keyframe, const PreparedImage& current);
   bool explain(const State& state, std::vector<Pair>* pairs);
   bool motion_near(const cv::Point2f& from, cv::Matx23d* motion) const;
   void expect_lost(const State& state);
@@ -64,6 +65,7 @@ class LostTracks {
   bool now_known_ = false;
   std::vector<OrbDescriptor> descriptors_;
   std::vector<int32_t> corners_;
+  std::vector<FeaturePair> matches_;
   std::vector<Pair> seeds_;  // features
   std::vector<Pair> expected_;
   std::vector<cv::Matx23d> motions_;  // of each expected one

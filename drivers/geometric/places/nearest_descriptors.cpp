@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Of binary descriptors in groups: the nearest one and the nearest of another group.
+// Of binary descriptors in groups: the nearest one, and the features that look like one of them.
 #include "drivers/geometric/places/nearest_descriptors.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 
 namespace unisim::geometric {
 
 namespace {
+
+// Redkitchen, pairs of keyframes by overlap: with 72 and 0.9 too many wrong pairs come through for
+// the rounds of the pose search.
+constexpr int32_t kMaxDistance = 64;
+constexpr double kMaxRatio = 0.8;
 
 constexpr size_t kWords = kOrbBytes / sizeof(uint64_t);
 
@@ -56,6 +63,25 @@ NearestDescriptors nearest_descriptors(const std::vector<OrbDescriptor>& descrip
   }
 #endif
   return scan(descriptors.data(), groups.data(), descriptors.size(), query);
+}
+
+void match_features(const OrbFeatureSet& features, const std::vector<OrbDescriptor>& descriptors,
+                    const std::vector<int32_t>& groups, size_t count, int32_t most,
+                    std::vector<FeaturePair>* out) {
+  out->clear();
+  std::vector<FeaturePair> best(count, {-1, -1, 0});
+  for (int f = 0; f < std::min(features.descriptor.rows, most); ++f) {
+    const NearestDescriptors nearest =
+        nearest_descriptors(descriptors, groups, features.descriptor.ptr<uint8_t>(f));
+    if (nearest.distance > kMaxDistance || nearest.distance > kMaxRatio * nearest.runner_up) {
+      continue;
+    }
+    FeaturePair& kept = best[static_cast<size_t>(nearest.group)];
+    if (kept.feature >= 0 && kept.distance <= nearest.distance) continue;
+    kept = {f, nearest.group, nearest.distance};
+  }
+  std::copy_if(best.begin(), best.end(), std::back_inserter(*out),
+               [](const FeaturePair& pair) { return pair.feature >= 0; });
 }
 
 }  // namespace unisim::geometric

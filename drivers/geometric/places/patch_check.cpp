@@ -96,32 +96,25 @@ void PatchCheck::match_contrast(const cv::Mat& image) {
   atlas_.gray().convertTo(atlas_.gray(), CV_8U, gain, kMiddleGray * (1 - gain));
 }
 
-void PatchCheck::draw(const PatchStore& patches, size_t first, size_t count, const cv::Mat& image) {
-  atlas_.clear();
-  for (size_t j = 0; j < count; ++j) {
-    const Target& target = targets_[first + j];
-    cv::Mat drawn = atlas_.tile(j);
-    cv::warpAffine(patches.pixels(target.landmark, target.patch), drawn, target.patch_of_tile,
-                   drawn.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
-    atlas_.add(cv::Point2f(atlas_.corner(j)) + cv::Point2f(kTileMiddle, kTileMiddle),
-               target.expected);
-  }
-  match_contrast(image);
+void PatchCheck::draw(const PatchStore& patches, size_t i, size_t j) {
+  const Target& target = targets_[i];
+  cv::Mat drawn = atlas_.tile(j);
+  cv::warpAffine(patches.pixels(target.landmark, target.patch), drawn, target.patch_of_tile,
+                 drawn.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
+  atlas_.add(cv::Point2f(atlas_.corner(j)) + cv::Point2f(kTileMiddle, kTileMiddle),
+             target.expected);
 }
 
 void PatchCheck::follow(const State& state, const PatchStore& patches, const PreparedImage& current,
                         double reach, std::vector<PatchMatch>* found) {
-  const size_t tiles = atlas_.capacity();
-  for (size_t first = 0; tiles > 0 && first < targets_.size(); first += tiles) {
-    const size_t count = std::min(tiles, targets_.size() - first);
-    draw(patches, first, count, current.gray);
-    atlas_.find(current, kUsualTexture);
-    for (size_t j = 0; j < count; ++j) {
-      if (!atlas_.found(j, current, reach, kTrackMargin)) continue;
-      const int32_t landmark = targets_[first + j].landmark;
-      found->push_back({landmark, state.map.landmark(landmark).generation, atlas_.found_at(j)});
-    }
-  }
+  const auto take = [&](size_t i, size_t j) {
+    if (!atlas_.found(j, current, reach, kTrackMargin)) return;
+    const int32_t landmark = targets_[i].landmark;
+    found->push_back({landmark, state.map.landmark(landmark).generation, atlas_.found_at(j)});
+  };
+  atlas_.look_for(
+      targets_.size(), current, kUsualTexture, [&](size_t i, size_t j) { draw(patches, i, j); },
+      [&] { match_contrast(current.gray); }, take);
 }
 
 void PatchCheck::run(const State& state, const PatchStore& patches, const PreparedImage& current,

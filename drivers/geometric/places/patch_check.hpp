@@ -44,7 +44,7 @@ class PatchCheck {
   };
   bool aim(const State& state, const PatchStore& patches, int32_t landmark, const CameraPose& pose,
            Target* out) const;
-  void draw(const PatchStore& patches, size_t first, size_t count, const cv::Mat& image);
+  void draw(const PatchStore& patches, size_t i, size_t j);
   void match_contrast(const cv::Mat& image);
   void follow(const State& state, const PatchStore& patches, const PreparedImage& current,
               double reach, std::vector<PatchMatch>* found);

@@ -97,7 +97,8 @@ bool PlaceFinder::find_quickly(const State& state, const DescriptorStore& store,
     *end = static_cast<int32_t>(candidates_.size()) < question.tries;
     if (!*end) break;
     viewer_.collect(state, store, match.id, &view_);
-    match_features(features_, view_, kQuickFeatures, &pairs_);
+    match_features(features_, view_.descriptor, view_.owner, view_.landmark.size(), kQuickFeatures,
+                   &pairs_);
     unisim_place_report report{};
     const bool likely = pairs_.size() >= kLikely && likely_tried < kVerified;
     if (likely && verify(state, patches, current, out, &report)) return true;
@@ -164,7 +165,8 @@ bool PlaceFinder::check(const State& state, const PatchStore& patches, const Pre
 
 bool PlaceFinder::pose_from_features(const State& state, CameraPose* pose,
                                      unisim_place_report* report) {
-  match_features(features_, view_, kOrbFeatures, &pairs_);
+  match_features(features_, view_.descriptor, view_.owner, view_.landmark.size(), kOrbFeatures,
+                 &pairs_);
   report->matches = static_cast<int32_t>(pairs_.size());
   report->reason = "too few features match";
   if (pairs_.size() < kMinMatches) return false;
@@ -176,7 +178,7 @@ bool PlaceFinder::pose_from_features(const State& state, CameraPose* pose,
   const CameraModel& camera = state.intrinsics.camera;
   observations_.clear();
   for (const FeaturePair& pair : pairs_) {
-    const int32_t slot = view_.landmark[static_cast<size_t>(pair.landmark)];
+    const int32_t slot = view_.landmark[static_cast<size_t>(pair.group)];
     const cv::Point2f& at = features_.point[static_cast<size_t>(pair.feature)];
     observations_.push_back(
         {state.map.landmark(slot).position, camera.undistort({at.x, at.y}), 1.0});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/common/place_reports.hpp"
+#include "drivers/geometric/places/nearest_descriptors.hpp"
 #include "drivers/geometric/places/patch_check.hpp"
 #include "drivers/geometric/places/place_list.hpp"
 #include "drivers/geometric/places/place_view.hpp"

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The landmarks of one place, and which features of an image show them.
+// The landmarks of one place.
 #include "drivers/geometric/places/place_view.hpp"
-
-#include <algorithm>
-
-#include "drivers/geometric/places/nearest_descriptors.hpp"
 
 namespace unisim::geometric {
 
@@ -14,10 +10,6 @@ namespace {
 // redkitchen.
 constexpr int32_t kNeighbours = 2;
 constexpr int kMinSupport = 2;
-// Redkitchen, pairs of keyframes by overlap: with 72 and 0.9 too many wrong pairs come through for
-// the rounds of the pose search.
-constexpr int32_t kMaxDistance = 64;
-constexpr double kMaxRatio = 0.8;
 
 }  // namespace
 
@@ -54,24 +46,6 @@ void PlaceViewer::collect(const State& state, const DescriptorStore& store, int3
     store.append(slot, state.map.landmark(slot).generation, &out->descriptor);
     out->owner.resize(out->descriptor.size(), static_cast<int32_t>(l));
   }
-}
-
-void match_features(const OrbFeatureSet& features, const PlaceView& place, int32_t most,
-                    std::vector<FeaturePair>* out) {
-  out->clear();
-  std::vector<FeaturePair> best(place.landmark.size(), {-1, -1, 0});
-  for (int f = 0; f < std::min(features.descriptor.rows, most); ++f) {
-    const NearestDescriptors nearest =
-        nearest_descriptors(place.descriptor, place.owner, features.descriptor.ptr<uint8_t>(f));
-    if (nearest.distance > kMaxDistance || nearest.distance > kMaxRatio * nearest.runner_up) {
-      continue;
-    }
-    FeaturePair& kept = best[static_cast<size_t>(nearest.group)];
-    if (kept.feature >= 0 && kept.distance <= nearest.distance) continue;
-    kept = {f, nearest.group, nearest.distance};
-  }
-  std::copy_if(best.begin(), best.end(), std::back_inserter(*out),
-               [](const FeaturePair& pair) { return pair.feature >= 0; });
 }
 
 }  // namespace unisim::geometric

@@ -28,15 +28,4 @@ class PlaceViewer {
   std::vector<uint8_t> taken_;
 };
 
-/// Pairs an image's features with landmarks: the least Hamming distance, clearly less than to any
-/// other landmark, one to one.
-struct FeaturePair {
-  int32_t feature;
-  int32_t landmark;  ///< index into PlaceView::landmark
-  int32_t distance;
-};
-/// @param most of the features, the strongest
-void match_features(const OrbFeatureSet& features, const PlaceView& place, int32_t most,
-                    std::vector<FeaturePair>* out);
-
 }  // namespace unisim::geometric
